@@ -1,0 +1,3 @@
+#include "app/program.h"
+
+int main(int argumentCount, char** arguments) { return fb::runProgram(argumentCount, arguments); }

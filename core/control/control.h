@@ -1,0 +1,49 @@
+// Feedback: the measured time of a frame moves v_time, and the share time of the roots (thesis 4.2, Feedback Loop;
+// algorithms section 2 items 7 to 9). Timings may come late: a frame's features are kept by frame number and paired.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "settings/settings.h"
+
+namespace fb {
+
+struct ControlState {
+    double vTimeMs = 1e-4;        // ms per unit of cost
+    double calibratedMs = 1e-4;   // start value; v_time stays within [1/8, 8] times this
+    double overheadMs = 0.0;      // O: measured frame with an empty front
+    double shareMs = 30.0;        // share time of the roots
+    bool infeasible = false;      // the roots alone take longer than the target (algorithms 5, case 17)
+    std::array<double, 3> recentMarginal{};  // last measurements of (actual - O) / cost, for the median gate
+    std::uint32_t recentCount = 0;
+};
+
+// What must be remembered of a frame until its time is known.
+struct FrameFeatures {
+    std::uint64_t frame = 0;
+    double frontCost = 0.0;
+    double estimateMs = 0.0;     // O + v_time * frontCost
+    std::uint32_t refusedGroups = 0;
+    bool onlyRoots = false;      // the front holds nothing but roots
+    bool shareFeedback = false;  // the effect shareFeedback was on
+};
+
+// Start: v_time calibrated, share = T - O.
+[[nodiscard]] ControlState startControl(double vTimeMs, double overheadMs, const ControlSettings& settings);
+[[nodiscard]] double estimateMs(const ControlState& state, double frontCost);
+
+// Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual <= O, not finite).
+void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs);
+
+// Features of the last frames, for timings that arrive late (GPU queries).
+class FeatureRing {
+  public:
+    void push(const FrameFeatures& features);
+    [[nodiscard]] const FrameFeatures* find(std::uint64_t frame) const;  // null when it is too old
+
+  private:
+    std::array<FrameFeatures, 16> ring_{};
+};
+
+}  // namespace fb

@@ -1,0 +1,57 @@
+// Effects run only where the scene calls for them (design section 10). Facts of the scene and the frame go in; a
+// decision with its reason in words comes out. A stage asks ActiveEffects and does no work for what is off.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scenefile/hierarchy.h"
+#include "settings/settings.h"
+
+namespace fb {
+
+enum class Effect : std::uint8_t { texturing, lighting, foreshortening, velocityLead, frustumFalloff, shareFeedback };
+inline constexpr int kEffectCount = 6;
+
+struct SceneFacts {
+    std::uint64_t texturedTriangles = 0, untexturedTriangles = 0;
+    double meanNormalCoherence = 0.0;  // area weighted over the leaves
+};
+[[nodiscard]] SceneFacts gatherSceneFacts(const Hierarchy& hierarchy);
+
+struct FrameFacts {
+    double speedMetresPerSecond = 0.0;
+    bool everythingLoaded = false;
+    bool policyUsesShareTime = true;
+};
+
+struct ActiveEffects {
+    std::array<bool, kEffectCount> on{};
+    [[nodiscard]] bool operator[](Effect e) const { return on[static_cast<std::size_t>(e)]; }
+    bool& operator[](Effect e) { return on[static_cast<std::size_t>(e)]; }
+};
+
+struct EffectDecision {
+    bool on = false;
+    std::string reason;  // "no textured triangles", "switched on by the setting"
+};
+
+struct EffectRow {
+    Effect effect;
+    std::string_view name;  // as in the knob effects.NAME
+    EffectMode (*mode)(const EffectSettings&);
+    EffectDecision (*automatic)(const SceneFacts&, const FrameFacts&);
+};
+[[nodiscard]] std::span<const EffectRow> effectTable();
+
+// Decisions with words, for the panel and the report.
+[[nodiscard]] EffectDecision decideEffect(const EffectRow& row, const EffectSettings& settings, const SceneFacts& scene,
+                                          const FrameFacts& frame);
+// The same decisions without the words: what the frame uses; allocates nothing.
+[[nodiscard]] ActiveEffects decideEffects(const EffectSettings& settings, const SceneFacts& scene,
+                                          const FrameFacts& frame);
+
+}  // namespace fb
