@@ -40,7 +40,8 @@ StartedLoad& ChunkOrder::choose() {
 }
 
 bool ChunkOrder::isWished(NodeId node) const {
-    return std::any_of(wishes_.begin(), wishes_.end(), [node](const Wish& wish) { return wish.node == node; });
+    return std::any_of(wishes_.begin(), wishes_.end(),
+                       [node](const Wish& wish) { return wish.node == node; });
 }
 
 void ChunkOrder::finish(NodeId node) {

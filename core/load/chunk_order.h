@@ -1,7 +1,7 @@
-// Which payload a loader reads next: the most urgent wish; the one under way goes on until a more urgent one appears,
-// then it is suspended and its bytes are kept while it is wished for (thesis 4.3, Incremental Pre-fetching).
-// In: wishes. Out: the load that the next chunk belongs to. Used by the loader thread and by the simulated disk, each on
-// one thread.
+// Which payload a loader reads next: the most urgent wish; the one under way goes on until a more urgent one
+// appears, then it is suspended and its bytes are kept while it is wished for (thesis 4.3, Incremental
+// Pre-fetching). In: wishes. Out: the load that the next chunk belongs to. Used by the loader thread and by
+// the simulated disk, each on one thread.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct StartedLoad {
 
 class ChunkOrder {
   public:
-    // Takes over the newest wishes (falling priority) and leaves the old ones in `wishes`, for their memory. What has
-    // been started and is no longer wished for is dropped.
+    // Takes over the newest wishes (falling priority) and leaves the old ones in `wishes`, for their memory.
+    // What has been started and is no longer wished for is dropped.
     void adopt(std::vector<Wish>& wishes);
 
     [[nodiscard]] bool hasWork();

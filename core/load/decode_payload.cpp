@@ -28,7 +28,8 @@ Result<std::unique_ptr<DecodedNode>> decodeVerified(const Scene& scene, NodeId n
     if (!decoded) return passOn(decoded);
     if (decoded->sizeBytes() != scene.hierarchy.residentBytes[node]) {
         return failure(file, nodePlace(node),
-                       "takes " + std::to_string(decoded->sizeBytes()) + " bytes in memory, the hierarchy says " +
+                       "takes " + std::to_string(decoded->sizeBytes()) +
+                           " bytes in memory, the hierarchy says " +
                            std::to_string(scene.hierarchy.residentBytes[node]));
     }
     return std::make_unique<DecodedNode>(std::move(*decoded));
@@ -36,7 +37,9 @@ Result<std::unique_ptr<DecodedNode>> decodeVerified(const Scene& scene, NodeId n
 
 }  // namespace
 
-std::string nodePlace(NodeId node) { return "node " + std::to_string(node); }
+std::string nodePlace(NodeId node) {
+    return "node " + std::to_string(node);
+}
 
 Result<void> ScenePacks::readAt(std::uint32_t pack, std::uint64_t offset, std::span<std::uint8_t> into) {
     if (pack >= scene_.packs.size()) {
@@ -62,7 +65,8 @@ Result<std::unique_ptr<DecodedNode>> readAndDecode(const Scene& scene, PayloadSo
     try {
         bytes.resize(payload.sizeBytes);
     } catch (const std::exception& problem) {
-        return failure(packName(scene, node), nodePlace(node), std::string("cannot be read: ") + problem.what());
+        return failure(packName(scene, node), nodePlace(node),
+                       std::string("cannot be read: ") + problem.what());
     }
     if (Result<void> read = source.readAt(payload.pack, payload.offset, bytes); !read) {
         if (read.error().place.empty()) read.error().place = nodePlace(node);

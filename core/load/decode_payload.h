@@ -1,5 +1,6 @@
-// From a payload's bytes to content that can be uploaded: checksum, parser, decoder, and the size that the hierarchy
-// promises (the memory budget counts on it). Any thread. What comes next: upload on the main thread.
+// From a payload's bytes to content that can be uploaded: checksum, parser, decoder, and the size that the
+// hierarchy promises (the memory budget counts on it). Any thread. What comes next: upload on the main
+// thread.
 #pragma once
 
 #include <cstdint>

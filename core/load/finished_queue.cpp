@@ -14,7 +14,7 @@ void FinishedQueue::push(Entry&& entry) {
 }
 
 FinishedQueue::Entry FinishedQueue::pop() {
-    FB_CHECK(count_ > 0);
+    FB_CHECK(!empty());
     Entry entry = std::move(ring_[head_]);
     bytes_ -= entry.residentBytes;
     head_ = (head_ + 1) % kCapacity;

@@ -1,5 +1,6 @@
-// The bounded queue of finished loads between a loader and the main thread, oldest first, and the marks by which
-// finished loads and wishes are held against each other. No locks here: the owner says who may call what.
+// The bounded queue of finished loads between a loader and the main thread, oldest first, and the marks by
+// which finished loads and wishes are held against each other. No locks here: the owner says who may call
+// what.
 #pragma once
 
 #include <cstdint>
@@ -53,8 +54,8 @@ class WishMarks {
     explicit WishMarks(std::size_t nodes) : markedAt_(nodes, 0) {}
     void mark(std::span<const Wish> wishes);
 
-    // Moves finished loads that nobody wishes for any more to `dropped`, and takes wishes that are finished already out
-    // of `wishes` (mark() them first).
+    // Moves finished loads that nobody wishes for any more to `dropped`, and takes wishes that are finished
+    // already out of `wishes` (mark() them first).
     void settle(FinishedQueue& queue, std::vector<Wish>& wishes, std::vector<FinishedQueue::Entry>& dropped);
 
   private:

@@ -1,12 +1,11 @@
 // The loader thread.
 //
-// Hand-over point: `mutex_` guards incoming_, incomingChunkBytes_, fresh_, stopping_ and queue_; nothing else is shared
-// but the counters (atomic), the scene (const) and the source. Whoever holds the mutex swaps or moves a few values:
-// reading, decoding and freeing happen outside.
-// The main thread only ever tries the lock: the loader has a low OS priority and may be off the processor while it holds
-// it. What could not be delivered is delivered with the next call.
-// A load that is in the queue is neither in incoming_ nor known to the loader; so it is loaded again only if it is
-// wished for again after it was taken.
+// Hand-over point: `mutex_` guards incoming_, incomingChunkBytes_, fresh_, stopping_ and queue_; nothing else
+// is shared but the counters (atomic), the scene (const) and the source. Whoever holds the mutex swaps or
+// moves a few values: reading, decoding and freeing happen outside. The main thread only ever tries the lock:
+// the loader has a low OS priority and may be off the processor while it holds it. What could not be
+// delivered is delivered with the next call. A load that is in the queue is neither in incoming_ nor known to
+// the loader; so it is loaded again only if it is wished for again after it was taken.
 #include <pthread.h>
 #include <sys/resource.h>
 
@@ -145,14 +144,16 @@ class ThreadLoader final : public Loader {
         try {
             load.bytes.resize(payload.sizeBytes);
         } catch (const std::exception& problem) {
-            handOver(load.node, failure({}, nodePlace(load.node), std::string("cannot be read: ") + problem.what()),
+            handOver(load.node,
+                     failure({}, nodePlace(load.node), std::string("cannot be read: ") + problem.what()),
                      load.filledBytes);
             return;
         }
         const std::size_t bytes =
             std::min(chunkBytes_, static_cast<std::size_t>(payload.sizeBytes - load.filledBytes));
         const std::span<std::uint8_t> into(load.bytes.data() + load.filledBytes, bytes);
-        if (Result<void> read = source_->readAt(payload.pack, payload.offset + load.filledBytes, into); !read) {
+        if (Result<void> read = source_->readAt(payload.pack, payload.offset + load.filledBytes, into);
+            !read) {
             if (read.error().place.empty()) read.error().place = nodePlace(load.node);
             handOver(load.node, passOn(read), load.filledBytes);
             return;

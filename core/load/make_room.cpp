@@ -124,9 +124,9 @@ bool canMakeRoom(RoomMaker& room, const SiblingGroup& group) {
     if (!room.victimsListed) listVictims(room);
     const LoadPlan& plan = room.plan;
     const double limit = limitFor(room, group);
-    const auto end = std::partition_point(
-        plan.victims.begin() + room.victimsTaken, plan.victims.end(),
-        [&](std::uint32_t i) { return plan.groups.groups[i].priority < limit; });
+    const auto end =
+        std::partition_point(plan.victims.begin() + room.victimsTaken, plan.victims.end(),
+                             [&](std::uint32_t i) { return plan.groups.groups[i].priority < limit; });
     available += plan.victimBytes[static_cast<std::size_t>(end - plan.victims.begin())] -
                  plan.victimBytes[room.victimsTaken];
     return group.missingBytes <= available;
@@ -158,7 +158,8 @@ bool makeWayInWindow(RoomMaker& room, const SiblingGroup& group) {
         reserved -= groups[underWay[end++]].inFlightBytes;  // 0 where it was evicted meanwhile
     }
     if (!fits(reserved)) return false;
-    for (; room.steppedBack < end; ++room.steppedBack) withdrawLoads(room, groups[underWay[room.steppedBack]]);
+    for (; room.steppedBack < end; ++room.steppedBack)
+        withdrawLoads(room, groups[underWay[room.steppedBack]]);
     if (room.victimsListed) sumVictims(room);
     return true;
 }

@@ -1,6 +1,7 @@
-// The simulated disk: time in whole nanoseconds, one chunk after the other, the same order and suspension as the thread
-// (chunk_order.h). A chunk that has begun is read to its end, whatever is wished meanwhile; an idle disk begins when it
-// is next told that time goes on, at the time before that step. Decoding takes no time.
+// The simulated disk: time in whole nanoseconds, one chunk after the other, the same order and suspension as
+// the thread (chunk_order.h). A chunk that has begun is read to its end, whatever is wished meanwhile; an
+// idle disk begins when it is next told that time goes on, at the time before that step. Decoding takes no
+// time.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,6 +18,8 @@ constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kNanosecondsPerMillisecond = 1e6;
 constexpr double kNanosecondsPerMicrosecond = 1e3;  // 1 MB/s is 1 byte a microsecond
 constexpr double kBytesPerKiB = 1024.0;
+// The padding between two payloads of a pack costs no seek: a real disk reads whole blocks, and ahead.
+constexpr std::uint64_t kSkippedBytes = 4096;
 
 class ModelLoader final : public Loader {
   public:
@@ -81,7 +84,8 @@ class ModelLoader final : public Loader {
         const PayloadRef& payload = scene_.hierarchy.payload[load.node];
         const std::uint64_t offset = payload.offset + load.filledBytes;
         readingBytes_ = std::min<std::uint64_t>(chunkBytes_, payload.sizeBytes - load.filledBytes);
-        const bool follows = headKnown_ && payload.pack == headPack_ && offset == headOffset_;
+        const bool follows = headKnown_ && payload.pack == headPack_ && offset >= headOffset_ &&
+                             offset - headOffset_ < kSkippedBytes;
         chunkEndNs_ = nowNs_ + (follows ? 0 : latencyNs_) +
                       std::llround(static_cast<double>(readingBytes_) * nanosecondsPerByte_);
         headKnown_ = true;

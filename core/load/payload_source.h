@@ -14,7 +14,8 @@ namespace fb {
 class PayloadSource {
   public:
     virtual ~PayloadSource() = default;
-    // Fills `into` from byte `offset` of pack number `pack`. May block; called on loader threads, several at once.
+    // Fills `into` from byte `offset` of pack number `pack`. May block; called on loader threads, several at
+    // once.
     [[nodiscard]] virtual Result<void> readAt(std::uint32_t pack, std::uint64_t offset,
                                               std::span<std::uint8_t> into) = 0;
 };

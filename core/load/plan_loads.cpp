@@ -39,9 +39,9 @@ void listCandidates(RoomMaker& room) {
     }
 }
 
-// Admits groups by falling priority, the lowest id first among equals. One for which no room can be made is passed over: a group larger than the memory
-// must not stop all others. One that has to wait for its place in the window stops the rest: they would get ahead of it
-// for ever.
+// Admits groups by falling priority, the lowest id first among equals. One for which no room can be made is
+// passed over: a group larger than the memory must not stop all others. One that has to wait for its place in
+// the window stops the rest: they would get ahead of it for ever.
 void admitGroups(RoomMaker& room) {
     LoadPlan& plan = room.plan;
     const std::vector<SiblingGroup>& groups = plan.groups.groups;
@@ -95,7 +95,7 @@ std::uint64_t flightWindowBytes(std::uint64_t budgetBytes) {
 
 void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan) {
     FB_CHECK(residency.state.size() == input.hierarchy.size());
-    FB_CHECK(input.inFront.empty() || input.inFront.size() == input.hierarchy.size());
+    FB_CHECK((input.inFront.empty() || input.inFront.size() == input.hierarchy.size()));
     plan.wishes.clear();
     plan.evicted.clear();
     plan.candidates.clear();
@@ -116,7 +116,8 @@ void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan) {
 
     plan.everythingLoaded = residency.inFlight.empty();
     for (const SiblingGroup& group : plan.groups.groups) {
-        if (group.evicted || (!group.complete && !group.broken && !group.hopeless)) plan.everythingLoaded = false;
+        if (group.evicted || (!group.complete && !group.broken && !group.hopeless))
+            plan.everythingLoaded = false;
     }
 }
 
@@ -124,10 +125,12 @@ Result<void> checkBudget(const Hierarchy& hierarchy, const LoadSettings& load) {
     std::uint64_t rootBytes = 0;
     for (NodeId root = 0; root < hierarchy.rootCount; ++root) rootBytes += hierarchy.residentBytes[root];
     if (rootBytes <= budgetBytes(load)) return {};
-    const auto neededMiB = static_cast<std::uint64_t>(std::ceil(static_cast<double>(rootBytes) / kBytesPerMiB));
+    const auto neededMiB =
+        static_cast<std::uint64_t>(std::ceil(static_cast<double>(rootBytes) / kBytesPerMiB));
     return failure("load.budget", {},
-                   std::to_string(hierarchy.rootCount) + " roots of the scene take " + std::to_string(rootBytes) +
-                       " bytes, the budget is " + std::to_string(budgetBytes(load)),
+                   std::to_string(hierarchy.rootCount) + " roots of the scene take " +
+                       std::to_string(rootBytes) + " bytes, the budget is " +
+                       std::to_string(budgetBytes(load)),
                    "set load.budget to " + std::to_string(neededMiB) + " MiB or more");
 }
 

@@ -46,11 +46,11 @@ void Residency::reset(const Hierarchy& hierarchy) {
 
 void Residency::setResident(const Hierarchy& hierarchy, NodeId node) {
     const NodeId above = hierarchy.parent[node];
-    FB_CHECK(above == kNoNode || loaded[above] == 1);
+    FB_CHECK((above == kNoNode || loaded[above] == 1));
     if (isInFlight(node)) {
         leaveFlight(*this, hierarchy, node);
     } else {
-        FB_CHECK(state[node] == NodeState::unloaded);
+        FB_CHECK((state[node] == NodeState::unloaded));
     }
     state[node] = NodeState::resident;
     loaded[node] = 1;
@@ -64,7 +64,7 @@ void Residency::setResident(const Hierarchy& hierarchy, NodeId node) {
 
 void Residency::setUnloaded(const Hierarchy& hierarchy, NodeId node) {
     if (state[node] == NodeState::resident) {
-        FB_CHECK(loadedChildren[node] == 0);
+        FB_CHECK(loadedChildren[node] == 0u);
         removeFrom(resident, position, node);
         residentBytes -= hierarchy.residentBytes[node];
         loaded[node] = 0;
@@ -78,8 +78,8 @@ void Residency::setUnloaded(const Hierarchy& hierarchy, NodeId node) {
 
 void Residency::reserve(const Hierarchy& hierarchy, NodeId node) {
     const NodeId above = hierarchy.parent[node];
-    FB_CHECK(above == kNoNode || loaded[above] == 1);
-    FB_CHECK(state[node] == NodeState::unloaded || state[node] == NodeState::failedTemporarily);
+    FB_CHECK((above == kNoNode || loaded[above] == 1));
+    FB_CHECK((state[node] == NodeState::unloaded || state[node] == NodeState::failedTemporarily));
     state[node] = NodeState::wanted;
     addTo(inFlight, position, node);
     reservedBytes += hierarchy.residentBytes[node];

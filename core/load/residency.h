@@ -1,9 +1,10 @@
-// Which nodes are in memory: states, bytes, and the device that holds the content (thesis 4.3, algorithms section 4).
-// Comes from the root load, then changed by planLoads and takeFinishedLoads; the selection reads `loaded` and
-// `memoryRefused`. Owned and changed by the main thread alone; the loader thread never sees it.
+// Which nodes are in memory: states, bytes, and the device that holds the content (thesis 4.3, algorithms
+// section 4). Comes from the root load, then changed by planLoads and takeFinishedLoads; the selection reads
+// `loaded` and `memoryRefused`. Owned and changed by the main thread alone; the loader thread never sees it.
 //
-//   unloaded --reserve--> wanted --taken from the loader--> ready --uploaded--> resident --evicted--> unloaded
-//   wanted, ready --an error--> failedTemporarily --retried--> wanted; the fourth error in a row: failed, for good
+//   unloaded --reserve--> wanted --taken from the loader--> ready --uploaded--> resident --evicted-->
+//   unloaded wanted, ready --an error--> failedTemporarily --retried--> wanted; the fourth error in a row:
+//   failed, for good
 #pragma once
 
 #include <cstdint>
@@ -49,23 +50,24 @@ struct LoadCounters {
 
 struct Residency {
     std::vector<NodeState> state;
-    std::vector<std::uint8_t> loaded;         // 1 where resident: the snapshot that the selection reads
-    std::vector<std::uint8_t> memoryRefused;  // 1 where the last plan had no room for it
+    std::vector<std::uint8_t> loaded;           // 1 where resident: the snapshot that the selection reads
+    std::vector<std::uint8_t> memoryRefused;    // 1 where the last plan had no room for it
     std::vector<std::uint32_t> loadedChildren;  // a node with loaded children is never evicted
-    std::vector<NodeId> resident;             // in no particular order
-    std::vector<NodeId> inFlight;             // wanted or ready: their bytes are reserved; in no particular order
-    std::vector<std::uint32_t> position;      // of a resident or in-flight node in its list: removal in O(1)
-    std::vector<double> retryAtSeconds;       // failedTemporarily: not before this time
-    std::vector<std::uint8_t> failures;       // since the node was last resident
+    std::vector<NodeId> resident;               // in no particular order
+    std::vector<NodeId> inFlight;         // wanted or ready: their bytes are reserved; in no particular order
+    std::vector<std::uint32_t> position;  // of a resident or in-flight node in its list: removal in O(1)
+    std::vector<double> retryAtSeconds;   // failedTemporarily: not before this time
+    std::vector<std::uint8_t> failures;   // since the node was last resident
     std::uint64_t residentBytes = 0;
-    std::uint64_t reservedBytes = 0;          // of inFlight: what they will take when resident
-    std::uint64_t peakBytes = 0;              // of residentBytes + reservedBytes
+    std::uint64_t reservedBytes = 0;  // of inFlight: what they will take when resident
+    std::uint64_t peakBytes = 0;      // of residentBytes + reservedBytes
     LoadCounters counters;
 
     void reset(const Hierarchy& hierarchy);
-    void setResident(const Hierarchy& hierarchy, NodeId node);    // from ready, wanted or unloaded; moves its bytes
-    void setUnloaded(const Hierarchy& hierarchy, NodeId node);    // evicts or gives up; counts nothing
-    void reserve(const Hierarchy& hierarchy, NodeId node);        // unloaded or failedTemporarily -> wanted
+    void setResident(const Hierarchy& hierarchy,
+                     NodeId node);  // from ready, wanted or unloaded; moves its bytes
+    void setUnloaded(const Hierarchy& hierarchy, NodeId node);  // evicts or gives up; counts nothing
+    void reserve(const Hierarchy& hierarchy, NodeId node);      // unloaded or failedTemporarily -> wanted
     // wanted or ready -> failedTemporarily, or failed after the last try; counts nothing.
     void setFailed(const Hierarchy& hierarchy, NodeId node, double nowSeconds);
 
