@@ -27,12 +27,13 @@
 namespace fb {
 namespace {
 
-constexpr int kNiceness = 10;
+constexpr int kNicer = 10, kNicest = 19;
 constexpr double kBytesPerKiB = 1024.0;
 
 // On Linux a thread has its own nice value. Where it may not be changed, loading is just less polite.
 void lowerThreadPriority() {
-    static_cast<void>(setpriority(PRIO_PROCESS, 0, kNiceness));
+    const int inherited = getpriority(PRIO_PROCESS, 0);
+    static_cast<void>(setpriority(PRIO_PROCESS, 0, std::min(inherited + kNicer, kNicest)));
     static_cast<void>(pthread_setname_np(pthread_self(), "fb-loader"));
 }
 
