@@ -55,10 +55,10 @@ double estimateMs(const ControlState& state, double frontCost) { return state.ov
 
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs) {
     if (!std::isfinite(actualMs) || actualMs < 0.0) return;
-    if (!(features.frontCost > 0.0)) return;  // empty front: nothing moves (case 8)
+    state.infeasible = features.onlyRoots && features.estimateMs > settings.targetMs;
+    if (!(features.frontCost > 0.0)) return;  // empty front: neither loop moves (case 8)
     feedBackVTime(state, settings, features, actualMs);
     if (features.shareFeedback) feedBackShare(state, settings, features, actualMs);
-    state.infeasible = features.onlyRoots && features.estimateMs > settings.targetMs;
 }
 
 void FeatureRing::push(const FrameFeatures& features) { ring_[features.frame % ring_.size()] = features; }

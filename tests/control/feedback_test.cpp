@@ -165,6 +165,17 @@ TEST(Feasible, IsNotAFrontOfNothingButRootsThatTakesLongerThanTheTarget) {
     EXPECT_FALSE(state.infeasible);
 }
 
+TEST(Feasible, IsTheSkyAgainAfterRootsThatWereNot) {
+    ControlState state = startControl(0.25, 2.0);
+    FrameFeatures features = shareFrame(0, true);
+    features.estimateMs = 30.5;
+    feedBack(state, plainControl(), features, 30.5);
+    ASSERT_TRUE(state.infeasible);
+    feedBack(state, plainControl(), {.frame = 2, .frontCost = 0.0, .estimateMs = 2.0, .onlyRoots = true},
+             2.0);
+    EXPECT_FALSE(state.infeasible);
+}
+
 // --- timings that come late ---
 TEST(FeatureRing, PairsATimingWithItsFrameUpToFifteenFramesLater) {
     FeatureRing ring;
