@@ -65,7 +65,7 @@ void FeatureRing::push(const FrameFeatures& features) { ring_[features.frame % r
 
 const FrameFeatures* FeatureRing::find(std::uint64_t frame) const {
     const FrameFeatures& kept = ring_[frame % ring_.size()];
-    return kept.frame == frame ? &kept : nullptr;
+    return kept.frame == frame && frame != 0 ? &kept : nullptr;  // 0 marks a place that is still empty
 }
 
 }  // namespace fb

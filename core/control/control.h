@@ -40,7 +40,7 @@ struct FrameFeatures {
 // Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual <= O, not finite).
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs);
 
-// Features of the last frames, for timings that arrive late (GPU queries).
+// Features of the last 16 frames, for timings that arrive late (GPU queries). Frames count from 1.
 class FeatureRing {
   public:
     void push(const FrameFeatures& features);

@@ -193,6 +193,11 @@ TEST(FeatureRing, PairsATimingWithItsFrameUpToFifteenFramesLater) {
     }
 }
 
+TEST(FeatureRing, HoldsNothingBeforeTheFirstFrame) {
+    const FeatureRing ring;
+    for (std::uint64_t frame = 0; frame < 20; ++frame) EXPECT_EQ(ring.find(frame), nullptr) << frame;
+}
+
 TEST(FeatureRing, KnowsFramesBeyond32Bits) {
     FeatureRing ring;
     ring.push({.frame = 0x100000005ull, .frontCost = 7.0});
