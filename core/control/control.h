@@ -16,7 +16,7 @@ struct ControlState {
     double shareScale = 1.0;      // share time of the roots as a multiple of T - O, moved by the second loop
     bool infeasible = false;      // the roots alone take longer than the target (algorithms 5, case 17)
     std::array<double, 3> recentMarginal{};  // last measurements of (actual - O) / cost, for the median gate
-    std::uint32_t recentCount = 0;
+    std::uint64_t recentCount = 0;
 };
 
 // What must be remembered of a frame until its time is known.

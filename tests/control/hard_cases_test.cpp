@@ -168,5 +168,21 @@ TEST(HardCase, Nr20WithNoiseCountersKeepAStillCameraCalmAndTheNaivePolicyDoesNot
     EXPECT_GT(togglesOf(PolicyId::lakhiaNaive), 450u);  // 0.1 a frame
 }
 
+TEST(HardCase, Nr21TheMedianGateWorksBeyond32BitsOfMeasurements) {
+    ControlSettings settings;
+    settings.vTimeGain = 1.0;
+    const FrameFeatures front{.frame = 1, .frontCost = 1.0};
+    ControlState state = startControl(1.0, 0.0);
+    state.recentCount = 0xfffffffeu;
+    state.recentMarginal = {1.0, 1.0, 1.0};
+    for (int i = 0; i < 4; ++i) {
+        feedBack(state, settings, front, 5.0);  // a stall
+        EXPECT_EQ(state.vTimeMs, 1.0) << "after measurement " << state.recentCount;
+        feedBack(state, settings, front, 1.0);
+        feedBack(state, settings, front, 1.0);
+        EXPECT_EQ(state.vTimeMs, 1.0);
+    }
+}
+
 }  // namespace
 }  // namespace fb
