@@ -38,6 +38,7 @@ struct FrameFeatures {
 [[nodiscard]] double estimateMs(const ControlState& state, double frontCost);
 
 // Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual <= O, not finite).
+// With the median gate on, the share loop sees the gated time too.
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs);
 
 // Features of the last 16 frames, for timings that arrive late (GPU queries). Frames count from 1.

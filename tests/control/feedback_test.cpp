@@ -122,6 +122,19 @@ TEST(ShareTime, StandsStillWhereTheEffectIsOff) {
     EXPECT_EQ(scaleAfter(100.0, features), 1.0);
 }
 
+TEST(ShareTime, SeesTheMedianGatesTime) {
+    ControlState state = startControl(0.25, 2.0);
+    for (int i = 0; i < 3; ++i) feedBack(state, {}, shareFrame(1), 29.0);
+    feedBack(state, {}, shareFrame(1), 500.0);
+    EXPECT_EQ(state.shareScale, 1.0);
+    // The marginal time of the frames before, at this front's cost: 2 + 0.27 * 150 = 42.5 ms, whatever this
+    // one took.
+    FrameFeatures larger = shareFrame(1);
+    larger.frontCost = 150.0;
+    feedBack(state, {}, larger, 10.0);
+    EXPECT_DOUBLE_EQ(state.shareScale, 0.99);
+}
+
 TEST(ShareTime, KeepsToItsLimits) {
     ControlSettings settings = plainControl();
     settings.shareGain = 0.5;

@@ -62,6 +62,27 @@ TEST(HardCase, Nr09AStallOf500MsPassesTheMedianGateByAFactorOfOne) {
     EXPECT_DOUBLE_EQ(state.vTimeMs, 1.675);
 }
 
+TEST(HardCase, Nr09AStallSwitchesNothingInTheStreet) {
+    for (PolicyId policy : {PolicyId::lakhia, PolicyId::lakhiaNaive}) {
+        ClosedLoop loop = street(policy, 0);
+        loop.run(2000);
+        loop.toggles = 0;  // settled: nothing switches without noise
+        const double before = loop.control.vTimeMs;
+        loop.step(500.0);
+        EXPECT_NEAR(loop.control.vTimeMs / before, 1.0, 1e-9);
+        loop.run(120);
+        EXPECT_EQ(loop.toggles, 0u) << policyOf(policy).name;
+
+        ClosedLoop ungated = street(policy, 0);
+        ungated.settings.control.medianGate = false;
+        ungated.run(2000);
+        ungated.toggles = 0;
+        ungated.step(500.0);
+        ungated.run(120);
+        EXPECT_GT(ungated.toggles, 4u) << policyOf(policy).name;
+    }
+}
+
 TEST(HardCase, Nr10AMeasurementThatSaysNothingIsSkipped) {
     const FrameFeatures front{.frame = 1, .frontCost = 100.0, .refusedGroups = 1, .shareFeedback = true};
     ControlState state = startControl(0.25, 2.0);
