@@ -56,11 +56,6 @@ struct PlanInput {
 // whenever the pinned roots allow it, and fills `plan`. The roots must be resident.
 void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan);
 
-// maxMemory in bytes.
-[[nodiscard]] inline std::uint64_t budgetBytes(const LoadSettings& load) {
-    return static_cast<std::uint64_t>(load.budgetMiB * 1048576.0);
-}
-
 // Error with the number needed when the roots alone do not fit into the budget.
 [[nodiscard]] Result<void> checkBudget(const Hierarchy& hierarchy, const LoadSettings& load);
 
