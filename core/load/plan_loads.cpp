@@ -16,7 +16,7 @@ constexpr std::uint64_t kSmallestWindowBytes = std::uint64_t{8} << 20;
 // Requests that can no longer come to anything: their group has lost a member for good.
 void withdrawHopelessLoads(RoomMaker& room) {
     for (SiblingGroup& group : room.plan.groups.groups) {
-        if (group.inFlightBytes > 0 && (group.hopeless || group.broken)) withdrawLoads(room, group);
+        if (group.hopeless || group.broken) withdrawLoads(room, group);
     }
 }
 
@@ -40,7 +40,7 @@ void listCandidates(RoomMaker& room) {
     for (std::uint32_t i = 0; i < plan.groups.groups.size(); ++i) {
         const SiblingGroup& group = plan.groups.groups[i];
         const bool blocked = group.hopeless || group.broken || group.waiting || group.evicted;
-        if (group.missingMembers > 0 && !blocked) plan.candidates.push_back(i);
+        if (group.missing.members > 0 && !blocked) plan.candidates.push_back(i);
     }
 }
 

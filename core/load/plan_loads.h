@@ -25,7 +25,8 @@ struct LoadPlan {
     std::vector<Wish> wishes;       // all in flight, falling priority, siblings side by side: for the loader
     std::vector<NodeId> evicted;    // given up this frame; the caller releases them on the device
     bool everythingLoaded = false;  // no candidate is left and nothing is in flight
-    bool frontEvicted = false;      // a node of inFront had to go (budget cut): that front must not be drawn again
+    bool frontEvicted =
+        false;  // a node of inFront had to go (budget cut): that front must not be drawn again
     // Scratch.
     SiblingGroups groups;
     std::vector<std::uint32_t> candidates;   // groups that could be loaded, a heap by priority
