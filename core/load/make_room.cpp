@@ -48,8 +48,8 @@ void listVictims(RoomMaker& room) {
     victims.clear();
     for (std::uint32_t i = 0; i < room.plan.groups.groups.size(); ++i) {
         const SiblingGroup& group = room.plan.groups.groups[i];
-        if (group.held.members > 0 && !group.pinned && group.priority < room.highestLimit)
-            victims.push_back(i);
+        const bool mayGo = !group.pinned && group.priority < room.highestLimit;
+        if (mayGo && group.held.members > 0) victims.push_back(i);
     }
     std::sort(victims.begin(), victims.end(),
               [&room](std::uint32_t a, std::uint32_t b) { return goesFirst(room, a, b); });
@@ -120,6 +120,7 @@ void shrinkToBudget(RoomMaker& room) {
 }
 
 bool canMakeRoom(RoomMaker& room, const SiblingGroup& group) {
+    if (room.residency.totalBytes() > room.budgetBytes) return false;  // the roots alone are too large
     std::uint64_t available = freeBytes(room);
     if (group.missing.bytes <= available) return true;
     if (!room.victimsListed) listVictims(room);
@@ -159,8 +160,9 @@ bool makeWayInWindow(RoomMaker& room, const SiblingGroup& group) {
         reserved -= groups[underWay[end++]].inFlight.bytes;  // 0 where it was evicted meanwhile
     }
     if (!fits(reserved)) return false;
-    for (; room.steppedBack < end; ++room.steppedBack)
+    for (; room.steppedBack < end; ++room.steppedBack) {
         withdrawLoads(room, groups[underWay[room.steppedBack]]);
+    }
     if (room.victimsListed) sumVictims(room);
     return true;
 }

@@ -115,8 +115,8 @@ void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan) {
 
     plan.everythingLoaded = residency.inFlight.empty();
     for (const SiblingGroup& group : plan.groups.groups) {
-        if (group.evicted || (!group.complete && !group.broken && !group.hopeless))
-            plan.everythingLoaded = false;
+        const bool settled = group.complete || group.broken || group.hopeless;
+        if (group.evicted || !settled) plan.everythingLoaded = false;
     }
 }
 

@@ -161,6 +161,27 @@ TEST(LoaderThread, ReadsAFinishedLoadOnceHoweverOftenItIsWishedFor) {
     EXPECT_EQ(takeNext(*loader).node, 2u);
 }
 
+TEST(LoaderThread, HearsWishesAfterALongTimeWithoutAny) {
+    const PayloadWorld world = fourNodes();
+    Disk disk;
+    const std::unique_ptr<Loader> loader = startLoader(world, disk);
+    for (const NodeId node : {1u, 2u}) {
+        for (int frame = 0; frame < 100; ++frame) loader->publish({}, {});
+        const Wish wishes[] = {{node, 1.0}};
+        loader->publish(wishes, {});
+        EXPECT_EQ(takeNext(*loader).node, node);
+    }
+    // And of their end.
+    disk.closeGate();
+    const Wish wishes[] = {{3, 1.0}};
+    loader->publish(wishes, chunksOf(100));
+    disk.waitForReads(3);
+    for (int frame = 0; frame < 100; ++frame) loader->publish({}, {});
+    disk.openGate();
+    while (loader->counters().cancelled == 0) std::this_thread::yield();
+    EXPECT_EQ(disk.reads().size(), 3u);
+}
+
 TEST(LoaderThread, HoldsBackALoadThatIsLargerThanTheCap) {
     const PayloadWorld world = fourNodes();
     Disk disk;

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "base/random.h"
 #include "disk_scene.h"
 #include "worlds/scratch_folder.h"
 
@@ -130,6 +131,40 @@ TEST(LoadingScenes, OutlivesAPackThatIsCutOffDuringTheWalk) {
     }
     EXPECT_EQ(walk.residency.counters.failed, walk.faults.size());
     EXPECT_GE(walk.faults.size(), 4u);
+}
+
+TEST(LoadingScenes, KeepsTheBudgetInEveryFrameOfAWalkWithTheThread) {
+    const ScratchFolder folder;
+    const Scene scene = writeDiskScene(folder / "s.fbscene", 3);
+    std::uint64_t allBytes = 0, rootBytes = 0;
+    for (NodeId n = 0; n < scene.hierarchy.size(); ++n) {
+        allBytes += scene.hierarchy.residentBytes[n];
+        if (n < 3) rootBytes += scene.hierarchy.residentBytes[n];
+    }
+    StoringDevice device;
+    const std::unique_ptr<Loader> loader = startLoaderThread(scene);
+    Walk walk(scene, *loader, device);
+    walk.load = chunksOf(64);
+    ASSERT_TRUE(loadRoots(scene, device, walk.residency, true).has_value());
+    Random random(5);
+    for (int frame = 0; frame < 300; ++frame) {
+        if (frame % 10 == 0) {
+            const double bytes =
+                static_cast<double>(rootBytes) + random.uniform() * static_cast<double>(allBytes - rootBytes);
+            walk.load.budgetMiB = std::ceil(bytes) / 1048576.0;
+            walk.load.frozen = random.index(5) == 0;
+        }
+        walk.frame();
+        ASSERT_LE(walk.residency.totalBytes(), budgetBytes(walk.load));
+        ASSERT_EQ(device.bytes(), walk.residency.residentBytes);
+        std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+    EXPECT_GT(walk.residency.counters.completed, 0u);
+    EXPECT_GT(walk.residency.counters.evicted, 0u);
+    walk.load = {};
+    ASSERT_TRUE(walk.untilLoaded());
+    EXPECT_EQ(device.stored().size(), 3u * kNodesPerBlock);
+    EXPECT_TRUE(walk.faults.empty());
 }
 
 // The n-th read fails once, for every n there is: one node fails for the time being, then all is loaded.

@@ -508,6 +508,11 @@ TEST(PlanLoads, LoadsAndEvictsNodesOfNoBytesLikeOthers) {
     w.load.frozen = true;
     w.planFrame();
     EXPECT_TRUE(w.plan.wishes.empty());
+    w.load.frozen = false;
+    w.setBudget(99);
+    w.planFrame();
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty()) << "not even these while the roots are too large";
 }
 
 TEST(PlanLoads, TakesTheWholeFlightWindowFromTheBudget) {
