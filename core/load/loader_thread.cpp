@@ -173,6 +173,7 @@ class ThreadLoader final : public Loader {
     void handOver(NodeId node, Result<std::unique_ptr<DecodedNode>> content, std::uint64_t payloadBytes) {
         const std::uint64_t residentBytes = content ? scene_.hierarchy.residentBytes[node] : 0;
         FinishedQueue::Entry entry{{node, std::move(content)}, residentBytes, payloadBytes};
+        publishCounters();  // before the main thread can see the load
         std::unique_lock lock(mutex_);
         adoptFresh(lock);
         if (!order_.isWished(node)) return;  // cancelled when the wishes were taken over

@@ -170,7 +170,9 @@ void withdrawLoads(RoomMaker& room, SiblingGroup& group) {
         if (!room.residency.isInFlight(node)) return;
         room.residency.setUnloaded(room.hierarchy, node);
         ++room.residency.counters.cancelled;
+        ++group.missingMembers;
     });
+    group.missingBytes += group.inFlightBytes;
     group.heldBytes -= group.inFlightBytes;
     group.inFlightBytes = 0;
 }

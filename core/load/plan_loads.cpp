@@ -20,6 +20,11 @@ void withdrawHopelessLoads(RoomMaker& room) {
     }
 }
 
+// Whether it still hangs from a resident node and was not given up for a more urgent one.
+bool isStillCandidate(const RoomMaker& room, const SiblingGroup& group) {
+    return !group.evicted && room.residency.state[group.parent] == NodeState::resident;
+}
+
 void reserveMissing(RoomMaker& room, const SiblingGroup& group) {
     const NodeId first = room.hierarchy.firstChild[group.parent];
     for (NodeId node = first; node < first + room.hierarchy.childCount[group.parent]; ++node) {
@@ -52,7 +57,7 @@ void admitGroups(RoomMaker& room) {
     std::make_heap(plan.candidates.begin(), plan.candidates.end(), lessUrgent);
     while (!plan.candidates.empty()) {
         const SiblingGroup& group = groups[plan.candidates.front()];
-        if (room.residency.state[group.parent] == NodeState::resident) {
+        if (isStillCandidate(room, group)) {
             if (!canMakeRoom(room, group)) {
                 refuseMemory(room, group);
             } else if (!makeWayInWindow(room, group)) {
@@ -67,9 +72,7 @@ void admitGroups(RoomMaker& room) {
     }
     for (const std::uint32_t i : plan.candidates) {
         const SiblingGroup& group = groups[i];
-        if (room.residency.state[group.parent] == NodeState::resident && !canMakeRoom(room, group)) {
-            refuseMemory(room, group);
-        }
+        if (isStillCandidate(room, group) && !canMakeRoom(room, group)) refuseMemory(room, group);
     }
 }
 
@@ -84,10 +87,6 @@ void listWishes(const Hierarchy& hierarchy, const Residency& residency, LoadPlan
 }
 
 }  // namespace
-
-std::uint64_t budgetBytes(const LoadSettings& load) {
-    return static_cast<std::uint64_t>(std::floor(load.budgetMiB * kBytesPerMiB));
-}
 
 std::uint64_t flightWindowBytes(std::uint64_t budgetBytes) {
     return std::max(kSmallestWindowBytes, budgetBytes / 8);

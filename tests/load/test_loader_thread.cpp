@@ -84,7 +84,6 @@ TEST(LoaderThread, SuspendsForAMoreUrgentNodeAndResumesWithoutReadingTwice) {
     std::uint64_t bytes = 0;
     for (const Disk::Read& read : reads) bytes += read.bytes;
     EXPECT_EQ(bytes, world.payloadBytes(1) + world.payloadBytes(3));
-    loader->publish({}, {});
     EXPECT_EQ(loader->counters().suspended, 1u);
     EXPECT_EQ(loader->counters().bytesRead, bytes);
     EXPECT_EQ(loader->counters().wastedBytes, 0u);
@@ -156,7 +155,6 @@ TEST(LoaderThread, ReadsAFinishedLoadOnceHoweverOftenItIsWishedFor) {
     const Wish rest[] = {{2, 1.0}};
     for (int frame = 0; frame < 200; ++frame) loader->publish(rest, chunksOf(50));
     EXPECT_EQ(takeNext(*loader).node, 2u);
-    loader->publish({}, {});
     EXPECT_EQ(loader->counters().bytesRead, world.payloadBytes(1) + world.payloadBytes(2));
     // And once more when it was taken, given up and is wished for again.
     loader->publish(rest, chunksOf(50));
