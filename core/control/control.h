@@ -13,7 +13,7 @@ struct ControlState {
     double vTimeMs = 1e-4;        // ms per unit of cost
     double calibratedMs = 1e-4;   // start value; v_time stays within [1/8, 8] times this
     double overheadMs = 0.0;      // O: measured frame with an empty front
-    double shareMs = 30.0;        // share time of the roots
+    double shareScale = 1.0;      // share time of the roots as a multiple of T - O, moved by the second loop
     bool infeasible = false;      // the roots alone take longer than the target (algorithms 5, case 17)
     std::array<double, 3> recentMarginal{};  // last measurements of (actual - O) / cost, for the median gate
     std::uint32_t recentCount = 0;
@@ -29,8 +29,12 @@ struct FrameFeatures {
     bool shareFeedback = false;  // the effect shareFeedback was on
 };
 
+// Share time of the roots: shareScale * (T - O), so that a new target acts at once; T - O counts as at least T/20, or
+// slices would turn negative under a heavy overhead (algorithms 5, case 11).
+[[nodiscard]] double shareMs(const ControlState& state, const ControlSettings& settings);
+
 // Start: v_time calibrated, share = T - O.
-[[nodiscard]] ControlState startControl(double vTimeMs, double overheadMs, const ControlSettings& settings);
+[[nodiscard]] ControlState startControl(double vTimeMs, double overheadMs);
 [[nodiscard]] double estimateMs(const ControlState& state, double frontCost);
 
 // Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual <= O, not finite).

@@ -43,7 +43,8 @@ struct EffectRow {
     Effect effect;
     std::string_view name;  // as in the knob effects.NAME
     EffectMode (*mode)(const EffectSettings&);
-    EffectDecision (*automatic)(const SceneFacts&, const FrameFacts&);
+    bool (*calledFor)(const SceneFacts&, const FrameFacts&);
+    std::string (*reason)(const SceneFacts&, const FrameFacts&, bool calledFor);
 };
 [[nodiscard]] std::span<const EffectRow> effectTable();
 

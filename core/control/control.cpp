@@ -1,0 +1,71 @@
+#include "control/control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fb {
+namespace {
+
+constexpr double kVTimeRange = 8.0;        // v_time stays within this factor of its calibrated value
+constexpr double kSmallestScale = 0.1;     // of T - O
+constexpr double kSmallestSpan = 0.05;     // T - O counts as at least this part of T
+
+double median3(double a, double b, double c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
+
+// The measurement that v_time follows: the median of the last three, so that a stall of one frame passes by (case 9).
+double gatedMarginal(ControlState& state, bool gate, double marginalMs) {
+    state.recentMarginal[state.recentCount % 3] = marginalMs;
+    ++state.recentCount;
+    if (!gate || state.recentCount < 3) return marginalMs;
+    return median3(state.recentMarginal[0], state.recentMarginal[1], state.recentMarginal[2]);
+}
+
+void feedBackVTime(ControlState& state, const ControlSettings& settings, const FrameFeatures& f, double actualMs) {
+    if (!(f.frontCost > 0.0) || !(actualMs > state.overheadMs)) return;
+    const double measured =
+        gatedMarginal(state, settings.medianGate, (actualMs - state.overheadMs) / f.frontCost);
+    state.vTimeMs += settings.vTimeGain * (measured - state.vTimeMs);
+    state.vTimeMs = std::clamp(state.vTimeMs, state.calibratedMs / kVTimeRange, state.calibratedMs * kVTimeRange);
+}
+
+void feedBackShare(ControlState& state, const ControlSettings& settings, const FrameFeatures& f, double actualMs) {
+    // Raised only if a fully loaded group was refused: otherwise it would wind up to its limit (case 18).
+    if (actualMs < settings.shareLow * settings.targetMs && f.refusedGroups > 0) {
+        state.shareScale *= 1.0 + settings.shareGain;
+    } else if (actualMs > settings.shareHigh * settings.targetMs && !f.onlyRoots) {
+        state.shareScale *= 1.0 - settings.shareGain;
+    }
+    state.shareScale = std::clamp(state.shareScale, kSmallestScale, settings.shareLimit);
+}
+
+}  // namespace
+
+double shareMs(const ControlState& state, const ControlSettings& settings) {
+    return state.shareScale * std::max(settings.targetMs - state.overheadMs, kSmallestSpan * settings.targetMs);
+}
+
+ControlState startControl(double vTimeMs, double overheadMs) {
+    ControlState state;
+    state.vTimeMs = state.calibratedMs = vTimeMs;
+    state.overheadMs = overheadMs;
+    return state;
+}
+
+double estimateMs(const ControlState& state, double frontCost) { return state.overheadMs + state.vTimeMs * frontCost; }
+
+void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs) {
+    if (!std::isfinite(actualMs) || actualMs < 0.0) return;
+    if (!(features.frontCost > 0.0)) return;  // empty front: nothing moves (case 8)
+    feedBackVTime(state, settings, features, actualMs);
+    if (features.shareFeedback) feedBackShare(state, settings, features, actualMs);
+    state.infeasible = features.onlyRoots && features.estimateMs > settings.targetMs;
+}
+
+void FeatureRing::push(const FrameFeatures& features) { ring_[features.frame % ring_.size()] = features; }
+
+const FrameFeatures* FeatureRing::find(std::uint64_t frame) const {
+    const FrameFeatures& kept = ring_[frame % ring_.size()];
+    return kept.frame == frame ? &kept : nullptr;
+}
+
+}  // namespace fb

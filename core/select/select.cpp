@@ -1,0 +1,107 @@
+#include "select/select.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/check.h"
+#include "select/select_policies.h"
+
+namespace fb {
+namespace {
+
+// A switch back within this many frames is a ping-pong (design section 7).
+constexpr std::uint64_t kPingPongFrames = 35;
+constexpr std::uint64_t kNever = ~std::uint64_t{0};
+
+constexpr std::array<Policy, 4> kPolicies = {{
+    {PolicyId::lakhia, "lakhia", "Time slices with hysteresis counters, as the thesis describes them.", true,
+     selectLakhia},
+    {PolicyId::lakhiaNaive, "lakhia-naive", "Time slices without hysteresis: refines while the children fit.", true,
+     selectLakhiaNaive},
+    {PolicyId::coarse, "coarse", "The roots alone: the least that can be drawn.", false, selectCoarse},
+    {PolicyId::full, "full", "Every leaf in view, whatever it costs: the reference.", false, selectFull},
+}};
+
+// A node whose children are all out of view is drawn in their place; that is no switch (algorithms 2 item 5).
+bool standsInForUnseenChildren(const Hierarchy& hierarchy, const Reached& r) {
+    return !r.expanded && r.boundBy == BoundBy::leaf && !hierarchy.isLeaf(r.node);
+}
+
+void countSwitch(const SelectInput& input, SelectState& state, const Reached& r, SelectCounters& counters) {
+    const NodeId n = r.node;
+    const bool reachedBefore = state.reachedFrame[n] + 1 == input.frame && state.reachedFrame[n] != kNever;
+    state.reachedFrame[n] = input.frame;
+    if (reachedBefore && standsInForUnseenChildren(input.hierarchy, r)) return;
+    const bool before = state.expanded[n] != 0;
+    state.expanded[n] = r.expanded ? 1 : 0;
+    if (!reachedBefore || before == r.expanded) return;
+
+    ++(r.expanded ? counters.togglesUp : counters.togglesDown);
+    const bool recent = state.toggledFrame[n] != kNever && input.frame - state.toggledFrame[n] <= kPingPongFrames;
+    if (recent && (state.toggledUp[n] != 0) != r.expanded) ++counters.pingPongs;
+    state.toggledFrame[n] = input.frame;
+    state.toggledUp[n] = r.expanded ? 1 : 0;
+}
+
+}  // namespace
+
+std::string_view boundByName(BoundBy reason) {
+    static constexpr std::array<std::string_view, kBoundByCount> names = {"leaf",       "time",   "load",
+                                                                          "hysteresis", "memory", "policy"};
+    return names[static_cast<std::size_t>(reason)];
+}
+
+void SelectState::reset(const Hierarchy& hierarchy, const SelectSettings& settings) {
+    const std::size_t nodes = hierarchy.size();
+    hysteresis.assign(nodes, settings.hystStart * settings.hystSwitch);
+    reachedFrame.assign(nodes, kNever);
+    expanded.assign(nodes, 0);
+    toggledFrame.assign(nodes, kNever);
+    toggledUp.assign(nodes, 0);
+}
+
+void Selection::clear() {
+    reached.clear();
+    front.clear();
+    counters = {};
+    frontCost = 0.0;
+    triangles = texturedTriangles = 0;
+}
+
+std::span<const Policy> policies() { return kPolicies; }
+
+const Policy& policyOf(PolicyId id) {
+    const auto found = std::ranges::find(kPolicies, id, &Policy::id);
+    FB_CHECK(found != kPolicies.end());
+    return *found;
+}
+
+void selectFront(const SelectInput& input, SelectState& state, Selection& selection) {
+    FB_CHECK(input.loaded.size() == input.hierarchy.size());
+    FB_CHECK(state.expanded.size() == input.hierarchy.size());
+    selection.clear();
+    policyOf(input.settings.policy).select(input, state, selection);
+    for (const Reached& r : selection.reached) {
+        countSwitch(input, state, r, selection.counters);
+        if (r.expanded) continue;
+        selection.front.push_back(r.node);
+        ++selection.counters.boundBy[static_cast<std::size_t>(r.boundBy)];
+        selection.frontCost += nodeCost(input.hierarchy, r.node, input.settings.cTextured);
+        selection.triangles += input.hierarchy.triangles(r.node);
+        selection.texturedTriangles += input.hierarchy.texturedTriangles[r.node];
+    }
+}
+
+std::uint64_t chainFrontHash(std::uint64_t previous, std::span<const NodeId> front) {
+    // One round of SplitMix64's finaliser a node: order matters, and nothing is allocated.
+    std::uint64_t hash = previous ^ (0x9e3779b97f4a7c15ull * (front.size() + 1));
+    for (NodeId node : front) {
+        hash ^= node + 0x9e3779b97f4a7c15ull;
+        hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9ull;
+        hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebull;
+        hash ^= hash >> 31;
+    }
+    return hash;
+}
+
+}  // namespace fb

@@ -1,0 +1,32 @@
+// Policy `lakhia-naive`: time slices without hysteresis (thesis 4.2, Time Slicing; algorithms 2.1). A loaded group is
+// drawn while its share is larger than what its visible members need.
+#include "select/select_policies.h"
+#include "select/sibling_group.h"
+
+namespace fb {
+namespace {
+
+Reached decide(const SelectInput& input, NodeId n, double shareMs, SelectState& state, Selection& selection) {
+    if (input.hierarchy.isLeaf(n)) return {n, false, BoundBy::leaf};
+    gatherGroup(input, n, state, selection);
+    if (state.group.empty()) return {n, false, BoundBy::leaf};  // nothing finer is in view
+    double needMs = 0.0;
+    for (NodeId child : state.group) needMs += timeNeeded(input, child);
+    const GroupMemory memory = groupMemory(input, n, state);
+    if (!(shareMs > needMs)) {
+        if (memory == GroupMemory::loaded) ++selection.counters.refusedGroups;
+        return {n, false, BoundBy::time};
+    }
+    if (memory != GroupMemory::loaded) return {n, false, boundByMemory(memory)};
+    return {n, true, BoundBy::leaf};
+}
+
+}  // namespace
+
+void selectLakhiaNaive(const SelectInput& input, SelectState& state, Selection& selection) {
+    gatherGroup(input, kNoNode, state, selection);
+    descendBySlices(rootShare(input), state, selection,
+                    [&](NodeId n, double sliceMs) { return decide(input, n, sliceMs, state, selection); });
+}
+
+}  // namespace fb

@@ -1,0 +1,53 @@
+// What the policies that walk down sibling groups share: which children are seen, whether the group may be drawn, and
+// time slices (thesis 4.2, algorithms 2 items 2 to 5).
+#pragma once
+
+#include "select/select.h"
+
+namespace fb {
+
+// The visible children of `parent`, or the visible roots for kNoNode, appended to state.group; their priorities to
+// state.priorities. Both are cleared first.
+void gatherGroup(const SelectInput& input, NodeId parent, SelectState& state, Selection& selection);
+
+enum class GroupMemory : std::uint8_t { loaded, missing, refused };  // refused: the budget has no room for it
+[[nodiscard]] GroupMemory groupMemory(const SelectInput& input, NodeId parent, const SelectState& state);
+
+[[nodiscard]] inline BoundBy boundByMemory(GroupMemory memory) {
+    return memory == GroupMemory::refused ? BoundBy::memory : BoundBy::load;
+}
+
+// Slice of each member of the group in ms per unit of priority: slice_i = shareMs * p_i / sum of p (thesis eq. 4.1).
+// Finite and > 0 for a share > 0, as priorities are.
+[[nodiscard]] double sliceScale(const SelectState& state, double shareMs);
+
+// Estimated time of a node: v_time * cost, > 0.
+[[nodiscard]] double timeNeeded(const SelectInput& input, NodeId node);
+
+// The share time of the roots, which a heavy overhead may not make negative (algorithms 5, case 11).
+[[nodiscard]] double rootShare(const SelectInput& input);
+
+// Breadth first from the group in state.group, whose members share `shareMs`: each node waits in the queue with its
+// slice; decide(node, sliceMs) says whether it is expanded and leaves the visible children in state.group, which then
+// share the slice.
+template <class Decide>
+void descendBySlices(double shareMs, SelectState& state, Selection& selection, const Decide& decide) {
+    state.queue.clear();
+    state.shares.clear();
+    const auto queueGroup = [&](double share) {
+        const double scale = sliceScale(state, share);
+        for (std::size_t i = 0; i < state.group.size(); ++i) {
+            state.queue.push_back(state.group[i]);
+            state.shares.push_back(scale * state.priorities[i]);
+        }
+    };
+    queueGroup(shareMs);
+    for (std::size_t next = 0; next < state.queue.size(); ++next) {
+        const double sliceMs = state.shares[next];
+        const Reached reached = decide(state.queue[next], sliceMs);
+        if (reached.expanded) queueGroup(sliceMs);
+        selection.reached.push_back(reached);
+    }
+}
+
+}  // namespace fb
