@@ -29,7 +29,7 @@ void main() {
     shown *= texel.rgb;
 #endif
 #ifdef LEVEL
-    shown = levelColour * (0.5 + 0.5 * dot(shown, vec3(0.2126, 0.7152, 0.0722)));
+    shown = levelColour * (0.65 + 0.35 * dot(shown, vec3(0.2126, 0.7152, 0.0722)));
 #endif
 #ifdef LIT
     shown *= brightness(frame.lightConstant, lightTerm, gl_FrontFacing);

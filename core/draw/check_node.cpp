@@ -1,7 +1,5 @@
 #include "draw/check_node.h"
 
-#include <algorithm>
-
 namespace fb {
 
 Result<void> checkNode(NodeId node, const DecodedNode& content) {
@@ -22,11 +20,8 @@ Result<void> checkNode(NodeId node, const DecodedNode& content) {
         if (!content.texels.empty()) return refuse("texels of a texture without a size");
         return {};
     }
-    std::uint64_t bytes = 0;
-    std::uint32_t levels = 0;
-    for (; levels < 17 && (levels == 0 || std::max(width, height) >> levels != 0); ++levels) {
-        bytes += std::uint64_t{4} * std::max(1u, width >> levels) * std::max(1u, height >> levels);
-    }
+    const std::uint32_t levels = mipLevelCount(width, height);
+    const std::uint64_t bytes = mippedBytes(width, height);
     if (content.mipLevels != levels) {
         return refuse(std::to_string(content.mipLevels) + " mip levels instead of " + std::to_string(levels));
     }

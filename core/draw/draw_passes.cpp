@@ -139,6 +139,13 @@ std::uint64_t passBytes(const DrawInput& draw, const DrawLists& lists) {
     return bytes;
 }
 
+std::uint32_t usedPrograms(const DrawInput& draw, const DrawLists& lists) {
+    constexpr std::uint32_t kSky = 1u << kVariants, kWire = kSky << 1, kBoxes = kWire << 1;
+    std::uint32_t used = kSky | (draw.settings.wireframe ? kWire : 0u) | (draw.settings.boxes ? kBoxes : 0u);
+    for (const Batch& batch : lists.batches) used |= 1u << batch.variant;
+    return used;
+}
+
 void beginPasses() {
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);

@@ -20,6 +20,9 @@ struct PassInput {
 // Bytes of the frame ring that drawPasses() takes for this frame.
 [[nodiscard]] std::uint64_t passBytes(const DrawInput& draw, const DrawLists& lists);
 
+// One bit for each program that this frame uses.
+[[nodiscard]] std::uint32_t usedPrograms(const DrawInput& draw, const DrawLists& lists);
+
 // Sets the state that every pass relies on: the context may be shared with a GUI.
 void beginPasses();
 // Writes the frame's data into `ring` (begun with passBytes()) and draws; the picture is bound and cleared.

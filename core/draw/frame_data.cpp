@@ -34,15 +34,15 @@ FrameData frameData(const View& view, const glm::vec3& up) {
 
     // A lamp above the viewer's left shoulder and a sky above a darker ground: a surface that faces the viewer is close
     // to full brightness, and neither the shaded side of a head nor the side wall of a street is black.
-    const glm::dvec3 lamp = glm::normalize(-forward + 0.35 * upward - 0.45 * right);
-    const glm::dvec3 light = 0.42 * lamp + 0.16 * sceneUp;
+    const glm::dvec3 lamp = glm::normalize(-forward + 0.35 * upward - 0.3 * right);
+    const glm::dvec3 light = 0.34 * lamp + 0.12 * sceneUp;
 
     FrameData frame{};
     frame.clipX = glm::vec3(right / (tangent * aspect));
     frame.clipY = glm::vec3(upward / tangent);
     frame.clipW = glm::vec3(forward);
     frame.nearMetres = static_cast<float>(camera.nearMetres);
-    frame.lightConstant = 0.5f;
+    frame.lightConstant = 0.64f;
     frame.light = glm::vec3(light);
     frame.skyRight = glm::vec3(right * (tangent * aspect));
     frame.skyUp = glm::vec3(upward * tangent);

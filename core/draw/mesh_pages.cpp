@@ -90,7 +90,7 @@ void MeshPages::write(const MeshSlot& slot, const DecodedNode& content, UploadSt
     scratch_.resize(slot.sizeBytes());
     const std::size_t vertexBytes = content.vertices.size() * sizeof(GpuVertex);
     std::memcpy(scratch_.data(), content.vertices.data(), vertexBytes);
-    orientTriangles(content, scratch_.data() + vertexBytes);
+    orientTriangles(content, normals_, scratch_.data() + vertexBytes);
     staging.copyToBuffer(pages_[slot.page]->buffer.name(), slot.firstUnit * std::uint64_t{kUnitBytes}, scratch_);
 }
 

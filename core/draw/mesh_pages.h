@@ -58,6 +58,7 @@ class MeshPages {
     std::uint32_t unitsPerPage_;
     std::vector<std::optional<Page>> pages_;  // numbers of pages stay while they live
     std::vector<std::uint8_t> scratch_;
+    std::vector<glm::vec3> normals_;  // scratch
 };
 
 }  // namespace fb

@@ -14,11 +14,16 @@ namespace {
 class EglContext final : public OffscreenContext {
   public:
     explicit EglContext(EGLDisplay display) : display_(display) {}
+    // The display stays open: a process has one for each device, and closing it would end every other context on it.
     ~EglContext() override {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (context_ != EGL_NO_CONTEXT) eglDestroyContext(display_, context_);
-        eglTerminate(display_);
+        if (context_ == EGL_NO_CONTEXT) return;
+        if (eglGetCurrentContext() == context_) {
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        }
+        eglDestroyContext(display_, context_);
     }
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
 
     // Null where the display does not give OpenGL 4.5 core without a surface; `why` then says what failed.
     [[nodiscard]] static std::unique_ptr<EglContext> open(EGLDisplay display, std::string& why) {

@@ -4,12 +4,15 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
 
 #include "scenefile/node_data.h"
 
 namespace fb {
 
 // Writes content.indices.size() 32-bit indices, which need not be aligned. Every index must be in range.
-void orientTriangles(const DecodedNode& content, std::uint8_t* into);
+// `normals` is scratch.
+void orientTriangles(const DecodedNode& content, std::vector<glm::vec3>& normals, std::uint8_t* into);
 
 }  // namespace fb

@@ -13,14 +13,6 @@ namespace {
 
 constexpr float kAnisotropy = 8.0f;
 
-std::uint64_t levelsBytes(std::uint32_t width, std::uint32_t height, std::uint32_t levels) {
-    std::uint64_t bytes = 0;
-    for (std::uint32_t level = 0; level < levels; ++level) {
-        bytes += std::uint64_t{4} * std::max(1u, width >> level) * std::max(1u, height >> level);
-    }
-    return bytes;
-}
-
 std::uint32_t limitOf(GLenum which) {
     GLint value = 0;
     glGetIntegerv(which, &value);
@@ -48,17 +40,17 @@ TexturePages::TexturePages(std::uint64_t smallestBytes, std::uint64_t largestByt
     }
 }
 
-Result<TexturePages::Page> TexturePages::makePage(std::uint32_t width, std::uint32_t height, std::uint32_t levels,
+Result<TexturePages::Page> TexturePages::makePage(std::uint32_t width, std::uint32_t height,
                                                   std::uint32_t layers) const {
     Page page;
     page.texture = GlTexture::make(unsigned{GL_TEXTURE_2D_ARRAY});
     page.width = width;
     page.height = height;
-    page.levels = levels;
+    page.levels = mipLevelCount(width, height);
     page.layers = layers;
-    page.layerBytes = levelsBytes(width, height, levels);
+    page.layerBytes = mippedBytes(width, height);
     clearGlErrors();
-    glTextureStorage3D(page.texture.name(), static_cast<GLsizei>(levels), GL_RGBA8, static_cast<GLsizei>(width),
+    glTextureStorage3D(page.texture.name(), static_cast<GLsizei>(page.levels), GL_RGBA8, static_cast<GLsizei>(width),
                        static_cast<GLsizei>(height), static_cast<GLsizei>(layers));
     const std::string what = "making a texture page of " + std::to_string(width) + " x " + std::to_string(height) + " x " +
                              std::to_string(layers) + " texels";
@@ -68,7 +60,7 @@ Result<TexturePages::Page> TexturePages::makePage(std::uint32_t width, std::uint
     return page;
 }
 
-Result<TextureSlot> TexturePages::allocate(std::uint32_t width, std::uint32_t height, std::uint32_t levels) {
+Result<TextureSlot> TexturePages::allocate(std::uint32_t width, std::uint32_t height) {
     if (width == 0 || height == 0) return TextureSlot{};
     if (std::max(width, height) > largestSide_) {
         return failure("", "",
@@ -84,17 +76,17 @@ Result<TextureSlot> TexturePages::allocate(std::uint32_t width, std::uint32_t he
             continue;
         }
         Page& page = *pages_[i];
-        if (page.width != width || page.height != height || page.levels != levels) continue;
+        if (page.width != width || page.height != height) continue;
         classLayers += page.layers;
         if (page.freeLayers.empty()) continue;
         const TextureSlot slot{static_cast<std::uint32_t>(i), page.freeLayers.back()};
         page.freeLayers.pop_back();
         return slot;
     }
-    const std::uint64_t layerBytes = levelsBytes(width, height, levels);
+    const std::uint64_t layerBytes = mippedBytes(width, height);
     const std::uint64_t wanted = std::max(smallestBytes_ / layerBytes, classLayers);
     const std::uint64_t most = std::clamp<std::uint64_t>(largestBytes_ / layerBytes, 1, mostLayers_);
-    auto page = makePage(width, height, levels, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most)));
+    auto page = makePage(width, height, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most)));
     if (!page) return passOn(page);
     if (hole == pages_.size()) pages_.emplace_back();
     pages_[hole].emplace(std::move(*page));
@@ -116,7 +108,7 @@ void TexturePages::release(const TextureSlot& slot) {
     FB_CHECK(pages_[slot.page].has_value());
     Page& page = *pages_[slot.page];
     FB_CHECK(slot.layer < page.layers);
-    FB_CHECK(std::ranges::find(page.freeLayers, slot.layer) == page.freeLayers.end());
+    FB_CHECK(std::ranges::count(page.freeLayers, slot.layer) == 0);
     page.freeLayers.push_back(slot.layer);
     if (page.freeLayers.size() == page.layers) pages_[slot.page].reset();
 }

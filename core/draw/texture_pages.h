@@ -26,7 +26,7 @@ class TexturePages {
     TexturePages(std::uint64_t smallestBytes, std::uint64_t largestBytes, bool anisotropic);
 
     // Error: larger than the driver takes, or the GPU has no memory for another page; nothing has changed then.
-    [[nodiscard]] Result<TextureSlot> allocate(std::uint32_t width, std::uint32_t height, std::uint32_t levels);
+    [[nodiscard]] Result<TextureSlot> allocate(std::uint32_t width, std::uint32_t height);
     void write(const TextureSlot& slot, std::span<const std::uint8_t> texels, UploadStaging& staging);
     void release(const TextureSlot& slot);
 
@@ -42,8 +42,7 @@ class TexturePages {
         std::uint64_t layerBytes = 0;
         std::vector<std::uint32_t> freeLayers;  // a stack
     };
-    [[nodiscard]] Result<Page> makePage(std::uint32_t width, std::uint32_t height, std::uint32_t levels,
-                                        std::uint32_t layers) const;
+    [[nodiscard]] Result<Page> makePage(std::uint32_t width, std::uint32_t height, std::uint32_t layers) const;
 
     std::uint64_t smallestBytes_, largestBytes_;
     std::uint32_t largestSide_ = 0, mostLayers_ = 0;
