@@ -38,7 +38,7 @@ Percentiles percentiles(const History& history, std::vector<double>& times) {
     }
     if (times.empty()) return {};
     std::ranges::sort(times);
-    const auto rank = [](double part) {
+    const auto rank = [&times](double part) {
         const auto n = static_cast<double>(times.size());
         return times[static_cast<std::size_t>(std::clamp(std::ceil(part * n) - 1.0, 0.0, n - 1.0))];
     };

@@ -119,10 +119,12 @@ void compareWithPacks(Checker& checker, const HierarchyFile& file, const std::ve
     const std::vector<std::uint8_t> there = encodeHierarchyFile(file);
     const std::vector<std::uint8_t> again = encodeHierarchyFile({joinBlocks(blocks), file.packs});
     if (there == again) return;
-    const auto differ = std::ranges::mismatch(there, again).in1 - there.begin();
-    const std::uint64_t tables = kHierarchyHeaderBytes + file.packs.size() * kBlockRecordBytes;
-    const auto at = static_cast<std::uint64_t>(differ);
-    checker.fault("hierarchy.bin", at < tables ? "" : "node " + std::to_string((at - tables) / kNodeRecordBytes),
+    // The header's checksums differ too, so the place is that of the first difference behind it.
+    std::size_t at = kHierarchyHeaderBytes;
+    while (at < std::min(there.size(), again.size()) && there[at] == again[at]) ++at;
+    const std::uint64_t nodes = kHierarchyHeaderBytes + file.packs.size() * kBlockRecordBytes;
+    checker.fault("hierarchy.bin",
+                  at < nodes ? "block table" : "node " + std::to_string((at - nodes) / kNodeRecordBytes),
                   "differs from what the packs say of their nodes");
 }
 

@@ -47,20 +47,26 @@ TEST(PassOn, KeepsTheErrorAndItsKindAcrossResultTypes) {
     EXPECT_EQ(second.error().oneLine(), "--frames: is not a number");
 }
 
-TEST(CheckDeathTest, PrintsTheExpressionBothSidesAndTheLine) {
+// The libraries that are linked start threads, so a plain fork of the test program would not do.
+class CheckDeathTest : public testing::Test {
+  protected:
+    void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
+
+TEST_F(CheckDeathTest, PrintsTheExpressionBothSidesAndTheLine) {
     const int apples = 3;
     EXPECT_DEATH(FB_CHECK(apples == 4),
                  "bug: apples == 4 is not true \\(3 against 4\\) at .*result_test.cpp:[0-9]+");
     EXPECT_DEATH(FB_CHECK(apples > 7), "apples > 7 is not true \\(3 against 7\\)");
 }
 
-TEST(CheckDeathTest, StopsOnAPlainConditionToo) {
+TEST_F(CheckDeathTest, StopsOnAPlainConditionToo) {
     const bool ready = false;
     EXPECT_DEATH(FB_CHECK(ready), "bug: ready is not true \\(false\\)");
     EXPECT_DEATH(FB_CHECK(!std::string("x").empty() == false), "1 against 0");
 }
 
-TEST(CheckDeathTest, TakesSumsOnBothSides) {
+TEST_F(CheckDeathTest, TakesSumsOnBothSides) {
     const int a = 1, b = 2, c = 4;
     EXPECT_DEATH(FB_CHECK(a + b == c), "a \\+ b == c is not true \\(3 against 4\\)");
     EXPECT_DEATH(FB_CHECK(c < a * b), "4 against 2");

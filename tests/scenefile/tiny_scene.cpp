@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -29,8 +30,11 @@ Bytes readAll(const std::filesystem::path& path) {
 }
 
 void overwrite(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    // In place: some file systems write a file to disk at once that was emptied and filled again.
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+    const auto size = static_cast<ssize_t>(bytes.size());
+    if (file < 0 || ::pwrite(file, bytes.data(), bytes.size(), 0) != size || ::ftruncate(file, size) != 0) std::abort();
+    ::close(file);
 }
 
 NodeTexture makeTexture(PayloadCodec codec, std::uint16_t width, std::uint16_t height, std::uint8_t channels,
