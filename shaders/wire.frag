@@ -4,7 +4,8 @@ layout(location = 0) in vec3 corner;
 layout(location = 0) out vec4 pixel;
 
 void main() {
-    vec3 perPixel = max(fwidth(corner), vec3(1e-6));
+    vec3 alongX = dFdx(corner), alongY = dFdy(corner);
+    vec3 perPixel = max(sqrt(alongX * alongX + alongY * alongY), vec3(1e-6));
     vec3 distancePixels = corner / perPixel;
     float nearest = min(distancePixels.x, min(distancePixels.y, distancePixels.z));
     // A triangle with a height of few pixels would be nothing but edge: its edges fade.

@@ -1,6 +1,6 @@
 // Parts of a page of fixed size: hands out ranges, takes them back and joins neighbours that are free.
-// In: lengths in any unit. Out: offsets in that unit. The first place that fits is taken, so the same calls give the
-// same places on every machine and late pages run empty.
+// In: lengths in any unit. Out: offsets in that unit. The first place that fits is taken, so the same calls
+// give the same places on every machine and late pages run empty.
 #pragma once
 
 #include <cstdint>

@@ -3,14 +3,18 @@
 namespace fb {
 
 Result<void> checkNode(NodeId node, const DecodedNode& content) {
-    const auto refuse = [&](std::string reason) { return failure("", "node " + std::to_string(node), std::move(reason)); };
+    const auto refuse = [&](std::string reason) {
+        return failure("", "node " + std::to_string(node), std::move(reason));
+    };
     const std::uint64_t triangles = std::uint64_t{content.texturedTriangles} + content.untexturedTriangles;
     if (content.indices.size() != triangles * 3) {
-        return refuse(std::to_string(content.indices.size()) + " indices for " + std::to_string(triangles) + " triangles");
+        return refuse(std::to_string(content.indices.size()) + " indices for " + std::to_string(triangles) +
+                      " triangles");
     }
     for (const std::uint32_t index : content.indices) {
         if (index >= content.vertices.size()) {
-            return refuse("index " + std::to_string(index) + " of " + std::to_string(content.vertices.size()) + " vertices");
+            return refuse("index " + std::to_string(index) + " of " +
+                          std::to_string(content.vertices.size()) + " vertices");
         }
     }
     const std::uint32_t width = content.textureWidth, height = content.textureHeight;
@@ -26,7 +30,8 @@ Result<void> checkNode(NodeId node, const DecodedNode& content) {
         return refuse(std::to_string(content.mipLevels) + " mip levels instead of " + std::to_string(levels));
     }
     if (content.texels.size() != bytes) {
-        return refuse(std::to_string(content.texels.size()) + " bytes of texels instead of " + std::to_string(bytes));
+        return refuse(std::to_string(content.texels.size()) + " bytes of texels instead of " +
+                      std::to_string(bytes));
     }
     return {};
 }

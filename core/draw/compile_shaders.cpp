@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <optional>
@@ -16,7 +17,8 @@ constexpr std::uint64_t kMostShaderBytes = 1 << 20;
 constexpr std::size_t kMostIncludes = 32;
 
 std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0) text.remove_prefix(1);
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0)
+        text.remove_prefix(1);
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.remove_suffix(1);
     return text;
 }
@@ -42,7 +44,7 @@ Result<void> appendFile(const std::filesystem::path& folder, std::string_view na
     const std::size_t index = shader.files.size();
     shader.files.push_back(path);
     const auto lineMark = [&](std::size_t line) {
-        shader.text += "#line " + std::to_string(line) + " " + std::to_string(index) + "\n";
+        shader.text += "#line " + std::to_string(index * kLinesPerFile + line) + "\n";
     };
     if (index > 0) lineMark(1);
     std::string_view rest(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -60,7 +62,8 @@ Result<void> appendFile(const std::filesystem::path& folder, std::string_view na
         }
         shader.text.append(text).push_back('\n');
         if (trimmed(text).starts_with("#version")) {
-            for (std::string_view define : defines) shader.text.append("#define ").append(define).append(" 1\n");
+            for (std::string_view define : defines)
+                shader.text.append("#define ").append(define).append(" 1\n");
             lineMark(line + 1);
         }
     }
@@ -89,13 +92,15 @@ Result<GlShader> compileStage(unsigned type, const std::filesystem::path& folder
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_TRUE) return shader;
-    return tl::make_unexpected(shaderError(*text, logOf(
-                                                      shader.name(), [](GLuint n, GLenum w, GLint* v) { glGetShaderiv(n, w, v); },
-                                                      [](GLuint n, GLsizei s, GLsizei* l, GLchar* t) { glGetShaderInfoLog(n, s, l, t); })));
+    return tl::make_unexpected(shaderError(
+        *text, logOf(
+                   shader.name(), [](GLuint n, GLenum w, GLint* v) { glGetShaderiv(n, w, v); },
+                   [](GLuint n, GLsizei s, GLsizei* l, GLchar* t) { glGetShaderInfoLog(n, s, l, t); })));
 }
 
 // Reads digits at `at` and moves behind them.
 std::optional<std::size_t> numberAt(std::string_view text, std::size_t& at) {
+    if (at >= text.size()) return std::nullopt;
     std::size_t value = 0;
     const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
     if (error != std::errc{}) return std::nullopt;
@@ -115,23 +120,25 @@ Result<ShaderText> readShader(const std::filesystem::path& shaderFolder, std::st
 Error shaderError(const ShaderText& shader, std::string_view log) {
     Error error;
     error.file = shader.files.empty() ? std::string() : shader.files.front().string();
-    const std::string_view firstLine = trimmed(log.substr(0, trimmed(log).find('\n')));
-    error.reason = "the driver does not compile it: " + std::string(firstLine);
-    for (std::size_t at = 0; at < firstLine.size(); ++at) {
-        if (std::isdigit(static_cast<unsigned char>(firstLine[at])) == 0) continue;
+    const std::string_view message = trimmed(trimmed(log).substr(0, trimmed(log).find('\n')));
+    std::string_view what = message;
+    for (std::size_t at = 0; at < message.size(); ++at) {
+        if (std::isdigit(static_cast<unsigned char>(message[at])) == 0) continue;
         std::size_t end = at;
-        const auto file = numberAt(firstLine, end);
-        if (file && *file < shader.files.size() && end + 1 < firstLine.size() &&
-            (firstLine[end] == ':' || firstLine[end] == '(')) {
-            ++end;
-            if (const auto line = numberAt(firstLine, end)) {
-                error.file = shader.files[*file].string();
-                error.place = "line " + std::to_string(*line);
-                return error;
-            }
-        }
+        const bool isString = numberAt(message, end).has_value();
+        const bool opens = isString && end < message.size() && (message[end] == ':' || message[end] == '(');
+        std::size_t behind = end + 1;
+        const auto line = opens ? numberAt(message, behind) : std::nullopt;
         at = end;
+        if (!line || *line / kLinesPerFile >= shader.files.size()) continue;
+        error.file = shader.files[*line / kLinesPerFile].string();
+        error.place = "line " + std::to_string(*line % kLinesPerFile);
+        what = message.substr(behind);
+        if (what.starts_with('(')) what.remove_prefix(std::min(what.find(')'), what.size()));
+        what.remove_prefix(std::min(what.find_first_not_of("): "), what.size()));
+        break;
     }
+    error.reason = "the driver does not compile it: " + std::string(what);
     return error;
 }
 
@@ -152,8 +159,9 @@ Result<GlProgram> compileProgram(const std::filesystem::path& shaderFolder, cons
     const std::string log = logOf(
         program.name(), [](GLuint n, GLenum w, GLint* v) { glGetProgramiv(n, w, v); },
         [](GLuint n, GLsizei s, GLsizei* l, GLchar* t) { glGetProgramInfoLog(n, s, l, t); });
-    return failure((shaderFolder / files.fragment).string(), "",
-                   "the driver does not link it with " + std::string(files.vertex) + ": " + std::string(trimmed(log)));
+    return failure(
+        (shaderFolder / files.fragment).string(), "",
+        "the driver does not link it with " + std::string(files.vertex) + ": " + std::string(trimmed(log)));
 }
 
 }  // namespace fb

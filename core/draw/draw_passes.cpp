@@ -19,10 +19,13 @@ static_assert(sizeof(ElementsCommand) == 20 && sizeof(ArraysCommand) == 16);
 
 constexpr std::uint32_t kBoxVertices = 24;
 
-const void* asPointer(std::uint64_t offset) { return reinterpret_cast<const void*>(offset); }
+const void* asPointer(std::uint64_t offset) {
+    return reinterpret_cast<const void*>(offset);
+}
 
 template <class T>
-void bindPlace(unsigned target, std::uint32_t binding, const FrameRing& ring, const FrameRing::Place<T>& place) {
+void bindPlace(unsigned target, std::uint32_t binding, const FrameRing& ring,
+               const FrameRing::Place<T>& place) {
     glBindBufferRange(target, binding, ring.buffer(), static_cast<GLintptr>(place.offsetBytes),
                       static_cast<GLsizeiptr>(place.sizeBytes()));
 }
@@ -40,7 +43,8 @@ void drawNodes(const PassInput& input, FrameRing& ring, DrawCounters& counters) 
     const auto commands = ring.take<ElementsCommand>(input.lists.draws.size());
     for (std::size_t i = 0; i < input.lists.draws.size(); ++i) {
         const Draw& draw = input.lists.draws[i];
-        commands.items[i] = {draw.indexCount, 1, draw.firstIndex, draw.baseVertex, static_cast<std::uint32_t>(i)};
+        commands.items[i] = {draw.indexCount, 1, draw.firstIndex, draw.baseVertex,
+                             static_cast<std::uint32_t>(i)};
     }
     glBindSampler(0, input.textures.sampler());
     std::uint32_t variant = kVariants, texturePage = kNoPage, meshPage = kNoPage;
@@ -98,11 +102,13 @@ void drawWireframe(const PassInput& input, FrameRing& ring, DrawCounters& counte
         // A page of one enormous mesh may be more than a shader can read: its edges are left out.
         if (static_cast<GLint64>(input.meshes.pageBytes(batch.meshPage)) > mostBytes) continue;
         if (batch.meshPage != meshPage) {
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kMeshBinding, input.meshes.buffer(batch.meshPage));
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, gpu::kMeshBinding,
+                             input.meshes.buffer(batch.meshPage));
             ++counters.stateChanges;
         }
         meshPage = batch.meshPage;
-        glMultiDrawArraysIndirect(GL_TRIANGLES, asPointer(commands.offsetBytes + batch.first * sizeof(ArraysCommand)),
+        glMultiDrawArraysIndirect(GL_TRIANGLES,
+                                  asPointer(commands.offsetBytes + batch.first * sizeof(ArraysCommand)),
                                   static_cast<GLsizei>(batch.count), 0);
         ++counters.multiDraws;
         counters.draws += batch.count;
@@ -116,8 +122,12 @@ void drawBoxes(const PassInput& input, FrameRing& ring, DrawCounters& counters) 
     const Hierarchy& h = input.draw.hierarchy;
     for (std::size_t i = 0; i < input.lists.nodes.size(); ++i) {
         const NodeId node = input.lists.nodes[i];
-        boxes.items[i] = {glm::vec3(glm::dvec3(h.bounds[node].min) - eye), 0.0f,
-                          glm::vec3(glm::dvec3(h.bounds[node].max) - eye), 0.0f, levelColour(h.level[node]), 0.0f};
+        boxes.items[i] = {glm::vec3(glm::dvec3(h.bounds[node].min) - eye),
+                          0.0f,
+                          glm::vec3(glm::dvec3(h.bounds[node].max) - eye),
+                          0.0f,
+                          levelColour(h.level[node]),
+                          0.0f};
     }
     bindPlace(GL_SHADER_STORAGE_BUFFER, gpu::kBoxBinding, ring, boxes);
     glBindVertexArray(input.emptyVertexArray);
@@ -133,7 +143,8 @@ void drawBoxes(const PassInput& input, FrameRing& ring, DrawCounters& counters) 
 std::uint64_t passBytes(const DrawInput& draw, const DrawLists& lists) {
     const std::size_t draws = lists.draws.size();
     std::uint64_t bytes = FrameRing::roomFor(1, sizeof(gpu::FrameData));
-    bytes += FrameRing::roomFor(draws, sizeof(gpu::DrawData)) + FrameRing::roomFor(draws, sizeof(ElementsCommand));
+    bytes +=
+        FrameRing::roomFor(draws, sizeof(gpu::DrawData)) + FrameRing::roomFor(draws, sizeof(ElementsCommand));
     if (draw.settings.wireframe) bytes += FrameRing::roomFor(draws, sizeof(ArraysCommand));
     if (draw.settings.boxes) bytes += FrameRing::roomFor(lists.nodes.size(), sizeof(gpu::BoxData));
     return bytes;

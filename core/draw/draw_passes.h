@@ -1,5 +1,5 @@
-// The passes of a frame as OpenGL calls: nodes, sky, wireframe, boxes. In: ordered draws and the pools. Out: pixels in
-// the picture that is bound, and counters.
+// The passes of a frame as OpenGL calls: nodes, sky, wireframe, boxes. In: ordered draws and the pools. Out:
+// pixels in the picture that is bound, and counters.
 #pragma once
 
 #include "draw/frame_ring.h"

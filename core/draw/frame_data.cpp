@@ -21,7 +21,8 @@ static_assert(offsetof(DrawData, coarse) == 0 && offsetof(DrawData, layer) == 12
 static_assert(offsetof(DrawData, fine) == 16 && offsetof(DrawData, baseVertex) == 28);
 static_assert(offsetof(DrawData, levelColour) == 32);
 static_assert(sizeof(BoxData) == 48);
-static_assert(offsetof(BoxData, low) == 0 && offsetof(BoxData, high) == 16 && offsetof(BoxData, colour) == 32);
+static_assert(offsetof(BoxData, low) == 0 && offsetof(BoxData, high) == 16 &&
+              offsetof(BoxData, colour) == 32);
 
 FrameData frameData(const View& view, const glm::vec3& up) {
     const Camera& camera = view.camera;
@@ -30,10 +31,12 @@ FrameData frameData(const View& view, const glm::vec3& up) {
     const double aspect = width / height;
     const glm::dvec3 right = camera.right(), upward = camera.up(), forward = camera.forward();
     const double upLength = glm::length(glm::dvec3(up));
-    const glm::dvec3 sceneUp = upLength > 1e-9 && std::isfinite(upLength) ? glm::dvec3(up) / upLength : glm::dvec3(0, 1, 0);
+    const glm::dvec3 sceneUp =
+        upLength > 1e-9 && std::isfinite(upLength) ? glm::dvec3(up) / upLength : glm::dvec3(0, 1, 0);
 
-    // A lamp above the viewer's left shoulder and a sky above a darker ground: a surface that faces the viewer is close
-    // to full brightness, and neither the shaded side of a head nor the side wall of a street is black.
+    // A lamp above the viewer's left shoulder and a sky above a darker ground: a surface that faces the
+    // viewer is close to full brightness, and neither the shaded side of a head nor the side wall of a street
+    // is black.
     const glm::dvec3 lamp = glm::normalize(-forward + 0.35 * upward - 0.3 * right);
     const glm::dvec3 light = 0.34 * lamp + 0.12 * sceneUp;
 

@@ -18,7 +18,9 @@ constexpr GLbitfield kMapping = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MA
 
 }  // namespace
 
-FrameRing::~FrameRing() { forgetFences(); }
+FrameRing::~FrameRing() {
+    forgetFences();
+}
 
 void FrameRing::forgetFences() {
     for (void*& fence : fences_) {
@@ -38,7 +40,8 @@ Result<void> FrameRing::begin(std::uint64_t bytes) {
         GlBuffer larger = GlBuffer::make();
         clearGlErrors();
         glNamedBufferStorage(larger.name(), size, nullptr, kMapping);
-        if (auto made = takeGlError("making the frame buffer of " + std::to_string(size) + " bytes"); !made) return made;
+        if (auto made = takeGlError("making the frame buffer of " + std::to_string(size) + " bytes"); !made)
+            return made;
         auto* mapped = static_cast<std::uint8_t*>(glMapNamedBufferRange(larger.name(), 0, size, kMapping));
         if (mapped == nullptr) return failure("", "", "the driver does not map the frame buffer");
         // Draws under way keep the old buffer alive until they are done with it.
@@ -67,6 +70,8 @@ std::uint8_t* FrameRing::takeBytes(std::uint64_t bytes, std::uint64_t& offset) {
     return mapped_ + offset;
 }
 
-void FrameRing::end() { fences_[part_] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0); }
+void FrameRing::end() {
+    fences_[part_] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
 
 }  // namespace fb

@@ -1,5 +1,6 @@
-// Memory that the CPU writes and the GPU reads once a frame: camera, draw data, commands. One mapped buffer of three
-// parts in turn, so that writing a frame never waits for the frame before. In: sizes. Out: places to write to.
+// Memory that the CPU writes and the GPU reads once a frame: camera, draw data, commands. One mapped buffer
+// of three parts in turn, so that writing a frame never waits for the frame before. In: sizes. Out: places to
+// write to.
 #pragma once
 
 #include <array>

@@ -8,17 +8,25 @@ namespace {
 
 const char* errorName(GLenum error) {
     switch (error) {
-        case GL_OUT_OF_MEMORY: return "the driver is out of memory";
-        case GL_INVALID_ENUM: return "the driver refused a name (GL_INVALID_ENUM)";
-        case GL_INVALID_VALUE: return "the driver refused a number (GL_INVALID_VALUE)";
-        case GL_INVALID_OPERATION: return "the driver refused an operation (GL_INVALID_OPERATION)";
-        case GL_INVALID_FRAMEBUFFER_OPERATION: return "the framebuffer is not complete";
-        case GL_CONTEXT_LOST: return "the graphics context was lost";
-        default: return "the driver reports an unknown error";
+        case GL_OUT_OF_MEMORY:
+            return "the driver is out of memory";
+        case GL_INVALID_ENUM:
+            return "the driver refused a name (GL_INVALID_ENUM)";
+        case GL_INVALID_VALUE:
+            return "the driver refused a number (GL_INVALID_VALUE)";
+        case GL_INVALID_OPERATION:
+            return "the driver refused an operation (GL_INVALID_OPERATION)";
+        case GL_INVALID_FRAMEBUFFER_OPERATION:
+            return "the framebuffer is not complete";
+        case GL_CONTEXT_LOST:
+            return "the graphics context was lost";
+        default:
+            return "the driver reports an unknown error";
     }
 }
 
-void onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text, const void* user) {
+void onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
+               const void* user) {
     const bool grave = type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
                        (severity == GL_DEBUG_SEVERITY_HIGH && type != GL_DEBUG_TYPE_PERFORMANCE);
     if (!grave) return;

@@ -1,6 +1,6 @@
 // What the driver says: the error flag after a call that may fail, and the debug messages of a debug context.
-// In: the current context. Out: text. The flag goes into Result errors; the messages are read by tests, which fail on
-// any that reports an error, and by debug builds of the program.
+// In: the current context. Out: text. The flag goes into Result errors; the messages are read by tests, which
+// fail on any that reports an error, and by debug builds of the program.
 #pragma once
 
 #include <string>
@@ -25,8 +25,10 @@ class GlMessages {
 
     // False where the context sends none (not a debug context).
     [[nodiscard]] bool listening() const { return listening_; }
-    // Errors, undefined behaviour and whatever the driver calls grave; performance hints and notes are left out.
+    // Errors, undefined behaviour and whatever the driver calls grave; performance hints and notes are left
+    // out.
     [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
+    void forget() { errors_.clear(); }
     void add(std::string error) { errors_.push_back(std::move(error)); }
 
   private:

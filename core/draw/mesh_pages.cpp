@@ -24,7 +24,8 @@ constexpr std::uint64_t kMostUnits = (std::uint64_t{1} << 31) / kUnitBytes;
 }  // namespace
 
 MeshPages::MeshPages(std::uint64_t pageBytes)
-    : unitsPerPage_(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pageBytes / kUnitBytes, 1, kMostUnits))) {}
+    : unitsPerPage_(
+          static_cast<std::uint32_t>(std::clamp<std::uint64_t>(pageBytes / kUnitBytes, 1, kMostUnits))) {}
 
 Result<MeshPages::Page> MeshPages::makePage(std::uint32_t units) const {
     Page page;
@@ -32,7 +33,8 @@ Result<MeshPages::Page> MeshPages::makePage(std::uint32_t units) const {
     clearGlErrors();
     glNamedBufferStorage(page.buffer.name(), static_cast<GLsizeiptr>(units) * kUnitBytes, nullptr,
                          GL_DYNAMIC_STORAGE_BIT);
-    if (auto made = takeGlError("making a mesh page of " + std::to_string(units * std::uint64_t{kUnitBytes}) + " bytes");
+    if (auto made = takeGlError("making a mesh page of " + std::to_string(units * std::uint64_t{kUnitBytes}) +
+                                " bytes");
         !made) {
         return passOn(made);
     }
@@ -57,7 +59,8 @@ Result<MeshSlot> MeshPages::allocate(std::size_t vertices, std::size_t indices) 
     MeshSlot slot;
     const std::uint64_t units = vertices + (indices + kIndicesPerUnit - 1) / kIndicesPerUnit;
     if (units == 0) return slot;
-    if (units > kMostUnits) return failure("", "", "a mesh of " + std::to_string(vertices) + " vertices is too large");
+    if (units > kMostUnits)
+        return failure("", "", "a mesh of " + std::to_string(vertices) + " vertices is too large");
     slot.units = static_cast<std::uint32_t>(units);
     slot.vertices = static_cast<std::uint32_t>(vertices);
     slot.indices = static_cast<std::uint32_t>(indices);
@@ -91,7 +94,8 @@ void MeshPages::write(const MeshSlot& slot, const DecodedNode& content, UploadSt
     const std::size_t vertexBytes = content.vertices.size() * sizeof(GpuVertex);
     std::memcpy(scratch_.data(), content.vertices.data(), vertexBytes);
     orientTriangles(content, normals_, scratch_.data() + vertexBytes);
-    staging.copyToBuffer(pages_[slot.page]->buffer.name(), slot.firstUnit * std::uint64_t{kUnitBytes}, scratch_);
+    staging.copyToBuffer(pages_[slot.page]->buffer.name(), slot.firstUnit * std::uint64_t{kUnitBytes},
+                         scratch_);
 }
 
 void MeshPages::release(const MeshSlot& slot) {
@@ -114,7 +118,8 @@ std::uint64_t MeshPages::allocatedBytes() const {
 }
 
 std::size_t MeshPages::pageCount() const {
-    return static_cast<std::size_t>(std::ranges::count_if(pages_, [](const auto& page) { return page.has_value(); }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(pages_, [](const auto& page) { return page.has_value(); }));
 }
 
 }  // namespace fb

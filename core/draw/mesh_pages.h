@@ -1,6 +1,6 @@
-// Meshes on the GPU: pages of a few MiB, each one buffer that holds vertices and indices of many nodes, so that a front
-// is drawn with few binds. In: decoded nodes. Out: where they lie. A node too large for a page gets one of its own; a
-// page that runs empty is deleted.
+// Meshes on the GPU: pages of a few MiB, each one buffer that holds vertices and indices of many nodes, so
+// that a front is drawn with few binds. In: decoded nodes. Out: where they lie. A node too large for a page
+// gets one of its own; a page that runs empty is deleted.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace fb {
 
 inline constexpr std::uint32_t kNoPage = ~std::uint32_t{0};
 
-// Pages count in units of one vertex (24 bytes = 6 indices): vertices start at a whole vertex, and the first index is
-// a multiple of 3, which the wireframe needs to tell corners apart.
+// Pages count in units of one vertex (24 bytes = 6 indices): vertices start at a whole vertex, and the first
+// index is a multiple of 3, which the wireframe needs to tell corners apart.
 struct MeshSlot {
     std::uint32_t page = kNoPage;  // kNoPage: a node without triangles
     std::uint32_t firstUnit = 0, units = 0;

@@ -14,7 +14,8 @@ namespace {
 class EglContext final : public OffscreenContext {
   public:
     explicit EglContext(EGLDisplay display) : display_(display) {}
-    // The display stays open: a process has one for each device, and closing it would end every other context on it.
+    // The display stays open: a process has one for each device, and closing it would end every other context
+    // on it.
     ~EglContext() override {
         if (context_ == EGL_NO_CONTEXT) return;
         if (eglGetCurrentContext() == context_) {
@@ -35,7 +36,8 @@ class EglContext final : public OffscreenContext {
             return refuse(why, "no contexts without a surface");
         }
         if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return refuse(why, "no OpenGL, only OpenGL ES");
-        const EGLint configWishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+        const EGLint configWishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                       EGL_NONE};
         EGLConfig config = EGL_NO_CONFIG_KHR;
         EGLint configs = 0;
         if (eglChooseConfig(display, configWishes, &config, 1, &configs) != EGL_TRUE || configs < 1) {
@@ -70,8 +72,8 @@ class EglContext final : public OffscreenContext {
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
-// Devices with graphics hardware first: where Mesa's software device and a vendor's driver are both installed, the
-// surfaceless platform would answer with the software device.
+// Devices with graphics hardware first: where Mesa's software device and a vendor's driver are both
+// installed, the surfaceless platform would answer with the software device.
 std::vector<EGLDeviceEXT> listDevices(bool software) {
     std::vector<EGLDeviceEXT> devices;
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") ||
@@ -87,7 +89,8 @@ std::vector<EGLDeviceEXT> listDevices(bool software) {
                         epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base");
     std::erase_if(devices, [&](EGLDeviceEXT device) {
         const char* extensions = canAsk ? eglQueryDeviceStringEXT(device, EGL_EXTENSIONS) : nullptr;
-        const bool isSoftware = extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
+        const bool isSoftware =
+            extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
         return isSoftware != software;
     });
     return devices;
@@ -108,13 +111,15 @@ Result<std::unique_ptr<OffscreenContext>> OffscreenContext::create() {
         context = EglContext::open(eglGetPlatformDisplayEXT(platform, native, nullptr), why);
         if (!context) tried += (tried.empty() ? "" : "; ") + std::string(name) + ": " + why;
     };
-    for (EGLDeviceEXT device : listDevices(false)) attempt(EGL_PLATFORM_DEVICE_EXT, device, "graphics device");
+    for (EGLDeviceEXT device : listDevices(false))
+        attempt(EGL_PLATFORM_DEVICE_EXT, device, "graphics device");
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless")) {
         attempt(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, "surfaceless");
     }
     for (EGLDeviceEXT device : listDevices(true)) attempt(EGL_PLATFORM_DEVICE_EXT, device, "software device");
     if (!context) {
-        return failure("", "EGL", "no device offers OpenGL 4.5 core (" + (tried.empty() ? "none found" : tried) + ")",
+        return failure("", "EGL",
+                       "no device offers OpenGL 4.5 core (" + (tried.empty() ? "none found" : tried) + ")",
                        "install libegl-mesa0 and libgl1-mesa-dri, or a driver for the graphics card");
     }
     return std::unique_ptr<OffscreenContext>(std::move(context));

@@ -7,7 +7,9 @@ namespace fb {
 
 namespace {
 
-auto groupOf(const Draw& d) { return std::tie(d.variant, d.texturePage, d.meshPage); }
+auto groupOf(const Draw& d) {
+    return std::tie(d.variant, d.texturePage, d.meshPage);
+}
 
 bool drawnBefore(const Draw& a, const Draw& b) {
     if (groupOf(a) != groupOf(b)) return groupOf(a) < groupOf(b);
@@ -38,8 +40,14 @@ void orderDraws(const DrawInput& input, std::span<const GpuNode> gpuNodes, DrawL
         const Box3d bounds{glm::dvec3(box.min), glm::dvec3(box.max)};
         // Not a number sorts as 0: a comparison that contradicts itself would be undefined behaviour.
         const auto distance = static_cast<float>(bounds.distance(input.view.camera.eye));
-        Draw draw{everywhere,           kNoPage, gpu.mesh.page, distance >= 0.0f ? distance : 0.0f,
-                  node,                 0,       gpu.mesh.firstIndex(), gpu.mesh.indices,
+        Draw draw{everywhere,
+                  kNoPage,
+                  gpu.mesh.page,
+                  distance >= 0.0f ? distance : 0.0f,
+                  node,
+                  0,
+                  gpu.mesh.firstIndex(),
+                  gpu.mesh.indices,
                   gpu.mesh.baseVertex()};
         if (texturing && gpu.texturedIndices > 0) {
             Draw textured = draw;

@@ -1,6 +1,6 @@
-// The draws of a front in the order that changes least state. In: the front and where its nodes lie on the GPU.
-// Out: draws grouped by program, texture page and mesh page, nearest first within a group, so that hidden surfaces are
-// refused by the depth test before they are shaded. Each group becomes one multi-draw.
+// The draws of a front in the order that changes least state. In: the front and where its nodes lie on the
+// GPU. Out: draws grouped by program, texture page and mesh page, nearest first within a group, so that
+// hidden surfaces are refused by the depth test before they are shaded. Each group becomes one multi-draw.
 #pragma once
 
 #include <cstdint>

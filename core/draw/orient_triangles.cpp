@@ -10,7 +10,8 @@ void orientTriangles(const DecodedNode& content, std::vector<glm::vec3>& normals
     normals.clear();
     for (const GpuVertex& vertex : content.vertices) normals.push_back(decodeNormal(vertex.normal));
     for (std::size_t i = 0; i + 2 < content.indices.size(); i += 3) {
-        std::array<std::uint32_t, 3> corners = {content.indices[i], content.indices[i + 1], content.indices[i + 2]};
+        std::array<std::uint32_t, 3> corners = {content.indices[i], content.indices[i + 1],
+                                                content.indices[i + 2]};
         std::array<glm::vec3, 3> positions;
         glm::vec3 normal(0.0f);
         for (std::size_t c = 0; c < 3; ++c) {

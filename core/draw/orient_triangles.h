@@ -1,6 +1,6 @@
-// Makes winding agree with normals. In: a decoded node. Out: its indices, two of them swapped in each triangle whose
-// corner normals point to the side that its winding calls the back.
-// The light asks which side of a surface is seen (gl_FrontFacing); models with mirrored parts would be lit inside out.
+// Makes winding agree with normals. In: a decoded node. Out: its indices, two of them swapped in each
+// triangle whose corner normals point to the side that its winding calls the back. The light asks which side
+// of a surface is seen (gl_FrontFacing); models with mirrored parts would be lit inside out.
 #pragma once
 
 #include <cstdint>

@@ -55,9 +55,11 @@ Image Picture::read() const {
     image.lossless = true;
     if (width_ == 0) return image;
     const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
-    // RGBA is what the picture holds: three channels would be converted by the driver, and rows padded to 4 bytes.
+    // RGBA is what the picture holds: three channels would be converted by the driver, and rows padded to 4
+    // bytes.
     std::vector<std::uint8_t> rgba(pixels * 4);
-    glGetTextureImage(colour_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()), rgba.data());
+    glGetTextureImage(colour_.name(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()),
+                      rgba.data());
     image.pixels.resize(pixels * 3);
     const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
     for (std::size_t y = 0; y < height; ++y) {

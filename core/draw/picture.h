@@ -1,5 +1,5 @@
-// What is drawn into: 8-bit colour and 32-bit float depth of the view's size. In: width and height. Out: a texture for
-// the GUI and pixels for files and tests.
+// What is drawn into: 8-bit colour and 32-bit float depth of the view's size. In: width and height. Out: a
+// texture for the GUI and pixels for files and tests.
 #pragma once
 
 #include "base/result.h"

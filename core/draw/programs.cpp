@@ -26,9 +26,12 @@ Result<Programs> compilePrograms(const std::filesystem::path& shaderFolder) {
         const ProgramFiles files{"node.vert", "node.frag", std::span(defines).first(count)};
         if (auto done = compileInto(programs.nodes[variant], shaderFolder, files); !done) return passOn(done);
     }
-    if (auto done = compileInto(programs.sky, shaderFolder, {"sky.vert", "sky.frag", {}}); !done) return passOn(done);
-    if (auto done = compileInto(programs.wire, shaderFolder, {"wire.vert", "wire.frag", {}}); !done) return passOn(done);
-    if (auto done = compileInto(programs.boxes, shaderFolder, {"box.vert", "box.frag", {}}); !done) return passOn(done);
+    if (auto done = compileInto(programs.sky, shaderFolder, {"sky.vert", "sky.frag", {}}); !done)
+        return passOn(done);
+    if (auto done = compileInto(programs.wire, shaderFolder, {"wire.vert", "wire.frag", {}}); !done)
+        return passOn(done);
+    if (auto done = compileInto(programs.boxes, shaderFolder, {"box.vert", "box.frag", {}}); !done)
+        return passOn(done);
     return programs;
 }
 

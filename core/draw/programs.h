@@ -1,5 +1,5 @@
-// All shader programs of the renderer, compiled before the first frame. In: the shader folder. Out: programs, or the
-// error of the first that does not compile.
+// All shader programs of the renderer, compiled before the first frame. In: the shader folder. Out: programs,
+// or the error of the first that does not compile.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 namespace fb {
 
 struct Programs {
-    std::array<GlProgram, kVariants> nodes;  // by kTextured | kLit | kMask | kLevel; kMask only with kTextured
+    std::array<GlProgram, kVariants>
+        nodes;  // by kTextured | kLit | kMask | kLevel; kMask only with kTextured
     GlProgram sky, wire, boxes;
 };
 

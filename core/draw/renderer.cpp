@@ -23,10 +23,12 @@ constexpr std::size_t kUploadRingBytes = 32 << 20;
 
 bool namesSoftware(std::string renderer) {
     static constexpr std::array<std::string_view, 7> kNames = {
-        "llvmpipe", "softpipe", "swiftshader", "swrast", "software rasterizer", "microsoft basic render", "gdi generic"};
+        "llvmpipe",   "softpipe", "swiftshader", "swrast", "software rasterizer", "microsoft basic render",
+        "gdi generic"};
     std::ranges::transform(renderer, renderer.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::ranges::any_of(kNames, [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
+    return std::ranges::any_of(
+        kNames, [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
 }
 
 struct Device {
@@ -53,8 +55,8 @@ Result<Device> askDevice() {
     return device;
 }
 
-// Owns the GPU side of resident nodes. Members are ordered so that everything goes before the context, which the
-// caller keeps longer.
+// Owns the GPU side of resident nodes. Members are ordered so that everything goes before the context, which
+// the caller keeps longer.
 class PooledRenderer final : public Renderer {
   public:
     PooledRenderer(Device device, bool wallClock, const RendererOptions& options, Programs programs,
@@ -93,7 +95,8 @@ class PooledRenderer final : public Renderer {
             return atNode(node, copied.error());
         }
         release(node);
-        if (node >= nodes_.size()) nodes_.resize(std::max<std::size_t>(node + std::size_t{1}, nodes_.size() * 2));
+        if (node >= nodes_.size())
+            nodes_.resize(std::max<std::size_t>(node + std::size_t{1}, nodes_.size() * 2));
         nodes_[node] = made;
         meshBytes_ += made.mesh.sizeBytes();
         textureBytes_ += made.textureBytes;
@@ -116,10 +119,12 @@ class PooledRenderer final : public Renderer {
 
     DrawCounters draw(const DrawInput& input, std::uint64_t frame) override {
         fault_.clear();
-        if (auto sized = picture_.resize(input.view.width, input.view.height); !sized) return refuse(sized.error());
+        if (auto sized = picture_.resize(input.view.width, input.view.height); !sized)
+            return refuse(sized.error());
         orderDraws(input, nodes_, lists_);
-        // Drivers finish a program at its first use, which took 100 ms on llvmpipe: a frame with a program that was
-        // never used is drawn twice and the second time measured, or the control would take it for the scene's cost.
+        // Drivers finish a program at its first use, which took 100 ms on llvmpipe: a frame with a program
+        // that was never used is drawn twice and the second time measured, or the control would take it for
+        // the scene's cost.
         const std::uint32_t used = usedPrograms(input, lists_);
         if ((used & ~warmPrograms_) != 0) {
             const DrawCounters unmeasured = drawOnce(input);
@@ -189,7 +194,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const std::filesystem::path& 
     if (!device) return passOn(device);
     auto programs = compilePrograms(shaderFolder);
     if (!programs) return passOn(programs);
-    auto staging = UploadStaging::create(options.uploadRingBytes.value_or(device->software ? 0 : kUploadRingBytes));
+    auto staging =
+        UploadStaging::create(options.uploadRingBytes.value_or(device->software ? 0 : kUploadRingBytes));
     if (!staging) return passOn(staging);
     const bool wallClock = options.wallClock.value_or(device->software);
     return std::make_unique<PooledRenderer>(std::move(*device), wallClock, options, std::move(*programs),

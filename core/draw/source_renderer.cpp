@@ -39,7 +39,9 @@ std::vector<glm::vec3> normalsOf(const SourceMesh& mesh) {
     for (std::size_t i = 0; i < normals.size(); ++i) {
         const bool known = mesh.hasNormals() && mesh.normals[i] != glm::vec3(0.0f);
         const double length = glm::length(sums[i]);
-        normals[i] = known ? mesh.normals[i] : length > 0.0 ? glm::vec3(sums[i] / length) : glm::vec3(0, 0, 1);
+        normals[i] = known          ? mesh.normals[i]
+                     : length > 0.0 ? glm::vec3(sums[i] / length)
+                                    : glm::vec3(0, 0, 1);
     }
     return normals;
 }
@@ -77,7 +79,8 @@ Result<void> checkBlock(const SourceBlock& block) {
     const SourceMesh& mesh = block.mesh;
     const std::size_t vertices = mesh.positions.size();
     for (const std::size_t count : {mesh.normals.size(), mesh.uvs.size(), mesh.colours.size()}) {
-        if (count != 0 && count != vertices) return failure(block.name, "", "attributes for some vertices only");
+        if (count != 0 && count != vertices)
+            return failure(block.name, "", "attributes for some vertices only");
     }
     if (!mesh.materials.empty() && mesh.materials.size() != mesh.triangles.size()) {
         return failure(block.name, "", "materials for some triangles only");
@@ -135,7 +138,8 @@ class SourceDrawer {
                                             const std::vector<Corner>& corners) {
         GlTexture texture;
         const bool textured = effects_[Effect::texturing] && material != nullptr && material->texture >= 0 &&
-                              static_cast<std::size_t>(material->texture) < block.textures.size() && block.mesh.hasUvs();
+                              static_cast<std::size_t>(material->texture) < block.textures.size() &&
+                              block.mesh.hasUvs();
         if (textured) {
             auto uploaded = uploadTexture(block.textures[static_cast<std::size_t>(material->texture)]);
             if (!uploaded) return passOn(uploaded);
@@ -146,7 +150,8 @@ class SourceDrawer {
         if (auto compiled = useProgram(variant); !compiled) return compiled;
         const GlBuffer buffer = GlBuffer::make();
         clearGlErrors();
-        glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)), corners.data(), 0);
+        glNamedBufferStorage(buffer.name(), static_cast<GLsizeiptr>(corners.size() * sizeof(Corner)),
+                             corners.data(), 0);
         if (auto made = takeGlError("making the vertices of " + block.name); !made) return made;
         const GlVertexArray array = GlVertexArray::make();
         glVertexArrayVertexBuffer(array.name(), 0, buffer.name(), 0, sizeof(Corner));

@@ -50,10 +50,11 @@ Result<TexturePages::Page> TexturePages::makePage(std::uint32_t width, std::uint
     page.layers = layers;
     page.layerBytes = mippedBytes(width, height);
     clearGlErrors();
-    glTextureStorage3D(page.texture.name(), static_cast<GLsizei>(page.levels), GL_RGBA8, static_cast<GLsizei>(width),
-                       static_cast<GLsizei>(height), static_cast<GLsizei>(layers));
-    const std::string what = "making a texture page of " + std::to_string(width) + " x " + std::to_string(height) + " x " +
-                             std::to_string(layers) + " texels";
+    glTextureStorage3D(page.texture.name(), static_cast<GLsizei>(page.levels), GL_RGBA8,
+                       static_cast<GLsizei>(width), static_cast<GLsizei>(height),
+                       static_cast<GLsizei>(layers));
+    const std::string what = "making a texture page of " + std::to_string(width) + " x " +
+                             std::to_string(height) + " x " + std::to_string(layers) + " texels";
     if (auto made = takeGlError(what); !made) return passOn(made);
     page.freeLayers.resize(layers);
     for (std::uint32_t i = 0; i < layers; ++i) page.freeLayers[i] = layers - 1 - i;
@@ -86,7 +87,8 @@ Result<TextureSlot> TexturePages::allocate(std::uint32_t width, std::uint32_t he
     const std::uint64_t layerBytes = mippedBytes(width, height);
     const std::uint64_t wanted = std::max(smallestBytes_ / layerBytes, classLayers);
     const std::uint64_t most = std::clamp<std::uint64_t>(largestBytes_ / layerBytes, 1, mostLayers_);
-    auto page = makePage(width, height, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most)));
+    auto page =
+        makePage(width, height, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(wanted, 1, most)));
     if (!page) return passOn(page);
     if (hole == pages_.size()) pages_.emplace_back();
     pages_[hole].emplace(std::move(*page));
@@ -95,7 +97,8 @@ Result<TextureSlot> TexturePages::allocate(std::uint32_t width, std::uint32_t he
     return slot;
 }
 
-void TexturePages::write(const TextureSlot& slot, std::span<const std::uint8_t> texels, UploadStaging& staging) {
+void TexturePages::write(const TextureSlot& slot, std::span<const std::uint8_t> texels,
+                         UploadStaging& staging) {
     if (slot.page == kNoPage) return;
     const Page& page = *pages_[slot.page];
     FB_CHECK(texels.size() == page.layerBytes);
@@ -120,7 +123,8 @@ std::uint64_t TexturePages::allocatedBytes() const {
 }
 
 std::size_t TexturePages::pageCount() const {
-    return static_cast<std::size_t>(std::ranges::count_if(pages_, [](const auto& page) { return page.has_value(); }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(pages_, [](const auto& page) { return page.has_value(); }));
 }
 
 }  // namespace fb

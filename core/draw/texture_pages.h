@@ -1,8 +1,8 @@
-// Textures on the GPU: one array texture per page, all layers of one size, each with all its mip levels. In: sizes (few
-// classes, see atlasSide). Out: page and layer. Pages of a class double in number of layers up to a bound in bytes, so
-// that a class of one node takes one small page and a large class few; a page that runs empty is deleted.
-// The bytes are sRGB and are drawn as they are: filtering and light work on them directly, as most viewers did before
-// linear light, so that an unlit pixel shows exactly its texel.
+// Textures on the GPU: one array texture per page, all layers of one size, each with all its mip levels. In:
+// sizes (few classes, see atlasSide). Out: page and layer. Pages of a class double in number of layers up to
+// a bound in bytes, so that a class of one node takes one small page and a large class few; a page that runs
+// empty is deleted. The bytes are sRGB and are drawn as they are: filtering and light work on them directly,
+// as most viewers did before linear light, so that an unlit pixel shows exactly its texel.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,8 @@ class TexturePages {
     // smallestBytes: of the first page of a class; largestBytes: of any page of more than one layer.
     TexturePages(std::uint64_t smallestBytes, std::uint64_t largestBytes, bool anisotropic);
 
-    // Error: larger than the driver takes, or the GPU has no memory for another page; nothing has changed then.
+    // Error: larger than the driver takes, or the GPU has no memory for another page; nothing has changed
+    // then.
     [[nodiscard]] Result<TextureSlot> allocate(std::uint32_t width, std::uint32_t height);
     void write(const TextureSlot& slot, std::span<const std::uint8_t> texels, UploadStaging& staging);
     void release(const TextureSlot& slot);
@@ -42,7 +43,8 @@ class TexturePages {
         std::uint64_t layerBytes = 0;
         std::vector<std::uint32_t> freeLayers;  // a stack
     };
-    [[nodiscard]] Result<Page> makePage(std::uint32_t width, std::uint32_t height, std::uint32_t layers) const;
+    [[nodiscard]] Result<Page> makePage(std::uint32_t width, std::uint32_t height,
+                                        std::uint32_t layers) const;
 
     std::uint64_t smallestBytes_, largestBytes_;
     std::uint32_t largestSide_ = 0, mostLayers_ = 0;

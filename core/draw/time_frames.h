@@ -1,6 +1,7 @@
-// How long drawing took. In: begin and end of a frame's draws. Out: milliseconds with the number of their frame.
-// On a GPU timer queries in a ring, read when they have arrived, never waited for; where all are under way a frame goes
-// unmeasured. On a software rasteriser, whose queries are wrong, the frame is finished and the wall clock read.
+// How long drawing took. In: begin and end of a frame's draws. Out: milliseconds with the number of their
+// frame. On a GPU timer queries in a ring, read when they have arrived, never waited for; where all are under
+// way a frame goes unmeasured. On a software rasteriser, whose queries are wrong, the frame is finished and
+// the wall clock read.
 #pragma once
 
 #include <array>

@@ -20,10 +20,11 @@ constexpr GLbitfield kMapping = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MA
 // `source` is an address, or an offset into the bound unpack buffer.
 void copyLevels(const TextureLevels& into, const std::uint8_t* source) {
     for (std::uint32_t level = 0; level < into.levels; ++level) {
-        const std::uint32_t width = std::max(1u, into.width >> level), height = std::max(1u, into.height >> level);
+        const std::uint32_t width = std::max(1u, into.width >> level),
+                            height = std::max(1u, into.height >> level);
         glTextureSubImage3D(into.texture, static_cast<GLint>(level), 0, 0, static_cast<GLint>(into.layer),
-                            static_cast<GLsizei>(width), static_cast<GLsizei>(height), 1, GL_RGBA, GL_UNSIGNED_BYTE,
-                            source);
+                            static_cast<GLsizei>(width), static_cast<GLsizei>(height), 1, GL_RGBA,
+                            GL_UNSIGNED_BYTE, source);
         source += std::size_t{4} * width * height;
     }
 }
@@ -38,16 +39,21 @@ Result<UploadStaging> UploadStaging::create(std::size_t ringBytes) {
     const auto size = static_cast<GLsizeiptr>(ringBytes);
     glNamedBufferStorage(staging.ring_.name(), size, nullptr, kMapping);
     if (auto made = takeGlError("making the upload ring"); !made) return passOn(made);
-    staging.mapped_ = static_cast<std::uint8_t*>(glMapNamedBufferRange(staging.ring_.name(), 0, size, kMapping));
+    staging.mapped_ =
+        static_cast<std::uint8_t*>(glMapNamedBufferRange(staging.ring_.name(), 0, size, kMapping));
     if (staging.mapped_ == nullptr) return failure("", "", "the driver does not map the upload ring");
     staging.ringBytes_ = ringBytes;
     staging.pending_.reserve(kMostFences);
     return staging;
 }
 
-UploadStaging::~UploadStaging() { forget(); }
+UploadStaging::~UploadStaging() {
+    forget();
+}
 
-UploadStaging::UploadStaging(UploadStaging&& other) noexcept { *this = std::move(other); }
+UploadStaging::UploadStaging(UploadStaging&& other) noexcept {
+    *this = std::move(other);
+}
 
 UploadStaging& UploadStaging::operator=(UploadStaging&& other) noexcept {
     if (this == &other) return *this;
@@ -104,7 +110,8 @@ void UploadStaging::fence() {
     pending_.push_back({glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0), writtenEnd_});
 }
 
-void UploadStaging::copyToBuffer(unsigned buffer, std::uint64_t offsetBytes, std::span<const std::uint8_t> bytes) {
+void UploadStaging::copyToBuffer(unsigned buffer, std::uint64_t offsetBytes,
+                                 std::span<const std::uint8_t> bytes) {
     if (bytes.empty()) return;
     const auto offset = static_cast<GLintptr>(offsetBytes);
     const auto size = static_cast<GLsizeiptr>(bytes.size());

@@ -1,7 +1,7 @@
-// The way of bytes to the GPU. In: bytes of a mesh or texture. Out: copies queued on the GPU, in order with its draws.
-// On a GPU the bytes go through a ring of mapped memory, so that neither the driver nor this thread waits; a software
-// rasteriser copies straight from the caller's memory, which is up to twice as fast there (256 x 256 with mips: 12
-// against 17 us on llvmpipe).
+// The way of bytes to the GPU. In: bytes of a mesh or texture. Out: copies queued on the GPU, in order with
+// its draws. On a GPU the bytes go through a ring of mapped memory, so that neither the driver nor this
+// thread waits; a software rasteriser copies straight from the caller's memory, which is up to twice as fast
+// there (256 x 256 with mips: 12 against 17 us on llvmpipe).
 #pragma once
 
 #include <cstdint>

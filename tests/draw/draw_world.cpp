@@ -37,6 +37,26 @@ GpuVertex vertex(const glm::vec3& position, const Rgb& colour, const glm::vec3& 
     return v;
 }
 
+std::array<glm::vec3, 4> rectangle(float left, float bottom, float right, float top, float z) {
+    return {glm::vec3{left, bottom, z}, {right, bottom, z}, {right, top, z}, {left, top, z}};
+}
+
+DecodedNode colouredRectangle(float left, float bottom, float right, float top, float z, const Rgb& colour) {
+    DecodedNode node;
+    addQuad(node, rectangle(left, bottom, right, top, z), colour);
+    return node;
+}
+
+std::vector<std::uint8_t> manyColours(int width, int height) {
+    std::vector<std::uint8_t> texels;
+    for (int i = 0; i < width * height; ++i) {
+        for (const int value : {i * 37 + 11, i * 91 + 5, i * 53 + 200, 255}) {
+            texels.push_back(static_cast<std::uint8_t>(value % 256));
+        }
+    }
+    return texels;
+}
+
 void addTriangle(DecodedNode& node, const std::array<glm::vec3, 3>& corners, const Rgb& colour) {
     const glm::vec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     for (const glm::vec3& corner : corners) {
@@ -73,7 +93,8 @@ void setTexture(DecodedNode& node, int width, int height, const std::vector<std:
             for (int x = 0; x < nextWidth * 4; ++x) {
                 int sum = 2;
                 for (int k = 0; k < 4; ++k) {
-                    const int fromX = std::min(width - 1, x / 4 * 2 + k % 2), fromY = std::min(height - 1, y * 2 + k / 2);
+                    const int fromX = std::min(width - 1, x / 4 * 2 + k % 2),
+                              fromY = std::min(height - 1, y * 2 + k / 2);
                     sum += level[static_cast<std::size_t>((fromY * width + fromX) * 4 + x % 4)];
                 }
                 next.push_back(static_cast<std::uint8_t>(sum / 4));
@@ -110,7 +131,9 @@ void World::uploadAll(Renderer& renderer) const {
     }
 }
 
-DrawTest::DrawTest() { remake({}); }
+DrawTest::DrawTest() {
+    remake({});
+}
 
 DrawTest::~DrawTest() {
     renderer.reset();

@@ -1,5 +1,5 @@
-// Tiny worlds for the renderer: nodes made by hand, each in a block of its own unless told otherwise, and a view whose
-// pixels can be counted on paper.
+// Tiny worlds for the renderer: nodes made by hand, each in a block of its own unless told otherwise, and a
+// view whose pixels can be counted on paper.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,17 +21,27 @@ inline const std::filesystem::path kShaders = std::filesystem::path(FB_SOURCE_DI
 // One context for all tests of the program: making one takes longer than most tests.
 OffscreenContext& context();
 
-// Looks along -z from `eye` with a 90 degree angle of view: at a distance of height / 2 metres a metre is a pixel.
+// Looks along -z from `eye` with a 90 degree angle of view: at a distance of height / 2 metres a metre is a
+// pixel.
 View viewAlongZ(const glm::dvec3& eye, int width, int height);
-// With the camera at (0, 0, 0), the plane z = -height / 2 maps 1 m to 1 pixel, and (0, 0) to the middle of the picture.
+// With the camera at (0, 0, 0), the plane z = -height / 2 maps 1 m to 1 pixel, and (0, 0) to the middle of
+// the picture.
 
 GpuVertex vertex(const glm::vec3& position, const Rgb& colour, const glm::vec3& normal = {0, 0, 1},
                  const glm::vec2& uv = {0, 0});
 
+// Of the plane z, counter-clockwise from the lower left.
+std::array<glm::vec3, 4> rectangle(float left, float bottom, float right, float top, float z);
+DecodedNode colouredRectangle(float left, float bottom, float right, float top, float z, const Rgb& colour);
+
+// RGBA, opaque, neighbours very different.
+std::vector<std::uint8_t> manyColours(int width, int height);
+
 // Adds a triangle or a rectangle (corners counter-clockwise) of one colour, untextured.
 void addTriangle(DecodedNode& node, const std::array<glm::vec3, 3>& corners, const Rgb& colour);
 void addQuad(DecodedNode& node, const std::array<glm::vec3, 4>& corners, const Rgb& colour);
-// A textured rectangle: uv (0, 0) at the first corner, (1, 0), (1, 1), (0, 1) at the others. Before untextured ones.
+// A textured rectangle: uv (0, 0) at the first corner, (1, 0), (1, 1), (0, 1) at the others. Before
+// untextured ones.
 void addTexturedQuad(DecodedNode& node, const std::array<glm::vec3, 4>& corners);
 // Level 0 from RGBA texels, row 0 first, and all further levels by a 2 x 2 box filter.
 void setTexture(DecodedNode& node, int width, int height, const std::vector<std::uint8_t>& rgba);

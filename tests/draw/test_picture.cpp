@@ -8,33 +8,8 @@
 
 namespace fb::draw_test {
 
-namespace {
-
-// A rectangle of the plane z, in metres there.
-std::array<glm::vec3, 4> rectangle(float left, float bottom, float right, float top, float z) {
-    return {glm::vec3{left, bottom, z}, {right, bottom, z}, {right, top, z}, {left, top, z}};
-}
-
-DecodedNode colouredRectangle(float left, float bottom, float right, float top, float z, const Rgb& colour) {
-    DecodedNode node;
-    addQuad(node, rectangle(left, bottom, right, top, z), colour);
-    return node;
-}
-
-// Every texel different.
-std::vector<std::uint8_t> manyColours(int width, int height) {
-    std::vector<std::uint8_t> texels;
-    for (int i = 0; i < width * height; ++i) {
-        for (const int value : {i * 37 + 11, i * 91 + 5, i * 53 + 200}) texels.push_back(static_cast<std::uint8_t>(value));
-        texels.push_back(255);
-    }
-    return texels;
-}
-
-}  // namespace
-
-// Pixel centres are at +-0.5, +-1.5, …; the triangle is x >= -3, y >= -3, x + y <= 0.2. Centres of the 6 x 6 square
-// from -2.5 to 2.5 whose sum is at most 0: 6 + 5 + 4 + 3 + 2 + 1 = 21, the longest row at the bottom.
+// Pixel centres are at +-0.5, +-1.5, …; the triangle is x >= -3, y >= -3, x + y <= 0.2. Centres of the 6 x 6
+// square from -2.5 to 2.5 whose sum is at most 0: 6 + 5 + 4 + 3 + 2 + 1 = 21, the longest row at the bottom.
 TEST_F(DrawTest, CoversExactlyThePixelsWhoseCentresATriangleContains) {
     World world;
     DecodedNode node;
@@ -48,7 +23,8 @@ TEST_F(DrawTest, CoversExactlyThePixelsWhoseCentresATriangleContains) {
     const std::array<std::string, 8> expected = {"........", ".#......", ".##.....", ".###....",
                                                  ".####...", ".#####..", ".######.", "........"};
     for (int y = 0; y < 8; ++y) {
-        EXPECT_EQ(row(image, y, {{'#', {200, 100, 50}}}), expected[static_cast<std::size_t>(y)]) << "row " << y;
+        EXPECT_EQ(row(image, y, {{'#', {200, 100, 50}}}), expected[static_cast<std::size_t>(y)])
+            << "row " << y;
     }
     EXPECT_EQ(counters.nodes, 1u);
     EXPECT_EQ(counters.triangles, 1u);
@@ -151,13 +127,14 @@ TEST_F(DrawTest, ShowsTheLevelOfEachNodeInLevelMode) {
         const glm::vec3 colour = levelColour(level);
         for (std::size_t c = 0; c < 3; ++c) {
             EXPECT_EQ(pixel(image, level, 6)[c], std::lround(colour[static_cast<int>(c)] * 255.0f)) << level;
-            EXPECT_NEAR(pixel(image, level, 1)[c], 0.65f * colour[static_cast<int>(c)] * 255.0f, 0.51f) << level;
+            EXPECT_NEAR(pixel(image, level, 1)[c], 0.65f * colour[static_cast<int>(c)] * 255.0f, 0.51f)
+                << level;
         }
     }
 }
 
-// Facing the viewer: 0.64 + 0.34 * lamp.z + 0.12 * up.z with the lamp at (-0.3, 0.35, 1) / sqrt(1.2125), up at y:
-// 0.64 + 0.34 / 1.10114 = 0.94877, times 255 is 241.9. All four triangles show the same side.
+// Facing the viewer: 0.64 + 0.34 * lamp.z + 0.12 * up.z with the lamp at (-0.3, 0.35, 1) / sqrt(1.2125), up
+// at y: 0.64 + 0.34 / 1.10114 = 0.94877, times 255 is 241.9. All four triangles show the same side.
 TEST_F(DrawTest, LightsASurfaceByTheSideThatIsSeenWhateverItsWinding) {
     const std::array<glm::vec3, 3> ccw = {glm::vec3{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
     const std::array<glm::vec3, 3> cw = {ccw[0], ccw[2], ccw[1]};
@@ -257,7 +234,8 @@ TEST_F(DrawTest, DrawsTheSameTwice) {
     for (int i = 0; i < 30; ++i) {
         const auto x = static_cast<float>(i);
         DecodedNode node;
-        addTexturedQuad(node, {glm::vec3{x - 20, 9, -30 - x}, {x, 8, -20}, {x + 3, -9, -25}, {x - 17, -7, -31}});
+        addTexturedQuad(node,
+                        {glm::vec3{x - 20, 9, -30 - x}, {x, 8, -20}, {x + 3, -9, -25}, {x - 17, -7, -31}});
         setTexture(node, 16, 8, manyColours(16, 8));
         addQuad(node, rectangle(x - 15, -9, x - 14, 9, -28), {static_cast<std::uint8_t>(i * 8), 90, 200});
         world.add(std::move(node), {0.3, 0.1, 0.7 * i});
