@@ -14,8 +14,8 @@ constexpr float kMargin = 1.5f;
 
 using Corners2 = std::array<glm::vec2, 3>;
 
-glm::dvec3 crossOf(const BlockMesh& mesh, const NodeTriangle& t) {
-    return crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y], mesh.positions[t.positions.z]);
+glm::dvec3 normalOf(const BlockMesh& mesh, const NodeTriangle& t) {
+    return glm::normalize(crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y], mesh.positions[t.positions.z]));
 }
 
 // How deep inside a triangle a point lies, in texels (negative outside: distance to the worst edge's line).
@@ -88,7 +88,7 @@ class ChartGrower {
 
     Chart grow(std::uint32_t seed, std::uint32_t chartNumber) {
         taken_.clear();
-        const glm::dvec3 normal = glm::normalize(crossOf(mesh_, triangles_[seed]));
+        const glm::dvec3 normal = normalOf(mesh_, triangles_[seed]);
         // Any two directions across it; along a ground or wall axis where there is one, which packs best.
         const glm::dvec3 helper = std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
         const glm::dvec3 right = glm::normalize(glm::cross(helper, normal));
@@ -103,7 +103,7 @@ class ChartGrower {
         for (std::size_t at = 0; at < queue.size(); ++at) {
             NodeTriangle& t = triangles_[queue[at]];
             if (t.chart != kNone) continue;
-            if (at > 0 && glm::dot(glm::normalize(crossOf(mesh_, t)), normal) < kLeastCosine) continue;
+            if (at > 0 && glm::dot(normalOf(mesh_, t), normal) < kLeastCosine) continue;
             const Corners2 corners = project(t);
             if (!claim(corners) && at > 0) continue;
             t.chart = chartNumber;
@@ -200,7 +200,7 @@ void bakeChart(const Chart& chart, std::span<const NodeTriangle> triangles, cons
             const glm::vec3 weights = closestOnTriangle(centre, flat).weights;
             glm::vec3 point(0.0f);
             for (int k = 0; k < 3; ++k) point += glm::vec3(mesh.positions[t.positions[k]]) * weights[k];
-            const glm::vec3 normal(glm::normalize(crossOf(mesh, t)));
+            const glm::vec3 normal(normalOf(mesh, t));
             const PieceSurface::Hit hit = surface.closest(point, normal, near);
             near = hit.triangle;
             const glm::u8vec4 colour = surface.colourAt(hit, side);

@@ -88,8 +88,7 @@ class BlockBuilder {
         for (std::size_t i = 0; i < level.pieces.size(); ++i) {
             std::vector<NodeTriangle> dressed = dressOriginal(mesh_, pieceOf(level, i));
             if (Result<void> done = finish(dressed, nullptr, 1.0, firstNode + i); !done) return done;
-            const auto corner = static_cast<double>(dressed.size());
-            result_.report.leafTriangles += static_cast<std::uint64_t>(corner);
+            result_.report.leafTriangles += dressed.size();
         }
         return {};
     }

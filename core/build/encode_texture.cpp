@@ -7,9 +7,9 @@
 namespace fb {
 
 Result<NodeTexture> encodeTexture(const Image& image, PayloadCodec codec, int jpegQuality) {
-    FB_CHECK(codec == PayloadCodec::jpeg || codec == PayloadCodec::png);
-    FB_CHECK((codec == PayloadCodec::png || image.channels == 3));
     const bool jpeg = codec == PayloadCodec::jpeg;
+    FB_CHECK((jpeg || codec == PayloadCodec::png));
+    FB_CHECK((!jpeg || image.channels == 3));
     const char* name = jpeg ? "atlas.jpg" : "atlas.png";
     NodeTexture texture;
     texture.codec = codec;

@@ -1,12 +1,9 @@
 #include "build/finish_node.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "base/check.h"
 #include "base/hash.h"
 
 namespace fb {
@@ -66,19 +63,11 @@ NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> trian
             parts[textured ? 0 : 1].push_back(maker.findOrAdd(vertex));
         }
     }
-    const std::size_t count = maker.vertices.size();
-    for (std::vector<std::uint32_t>& part : parts) {
-        if (part.empty()) continue;
-        meshopt_optimizeVertexCache(part.data(), part.data(), part.size(), count);
-        result.indices.insert(result.indices.end(), part.begin(), part.end());
-    }
     result.texturedTriangles = static_cast<std::uint32_t>(parts[0].size() / 3);
     result.untexturedTriangles = static_cast<std::uint32_t>(parts[1].size() / 3);
-    result.vertices.resize(count);
-    const std::size_t used = meshopt_optimizeVertexFetch(result.vertices.data(), result.indices.data(),
-                                                         result.indices.size(), maker.vertices.data(), count,
-                                                         sizeof(NodeVertex));
-    FB_CHECK(used == count);
+    result.indices = std::move(parts[0]);
+    result.indices.insert(result.indices.end(), parts[1].begin(), parts[1].end());
+    result.vertices = std::move(maker.vertices);
     return result;
 }
 

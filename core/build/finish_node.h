@@ -9,8 +9,8 @@
 
 namespace fb {
 
-// Vertices made unique, textured triangles first, both parts in an order that suits the vertex cache. `atlas` as in
-// NodeTriangle::texels; 0 by 0 without texture.
+// Vertices made unique, textured triangles first. The atlas is what NodeTriangle::texels count in; 0 by 0 without
+// texture. encodePayload() puts both into an order that suits the vertex cache.
 [[nodiscard]] NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> triangles, int atlasWidth,
                                     int atlasHeight);
 

@@ -5,13 +5,15 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "scenefile/limits.h"
 
 namespace fb {
 namespace {
 
 // Below this step the areas of triangles would no longer be normal floats.
-constexpr double kSmallestStep = 0x1.0p-60;
-constexpr double kLargestCoordinate = 1e15;
+const double kSmallestStep = std::ldexp(1.0, kMinGridExponent);
+// Half of what scene files hold, so that a grid's origin, rounded down, still is in range.
+constexpr double kLargestCoordinate = 0.5 * kMaxCoordinateMetres;
 constexpr float kLargestUv = 1e6f;
 
 Result<void> checkSource(const SourceBlock& block) {
@@ -28,7 +30,7 @@ Result<void> checkSource(const SourceBlock& block) {
     for (std::size_t i = 0; i < vertices; ++i) {
         for (int axis = 0; axis < 3; ++axis) {
             if (!(std::abs(mesh.positions[i][axis]) <= kLargestCoordinate)) {
-                return failure("", block.name, "vertex " + std::to_string(i) + " is not finite or beyond 1e15 m");
+                return failure("", block.name, "vertex " + std::to_string(i) + " is not finite or beyond 5e11 m");
             }
         }
     }

@@ -21,7 +21,7 @@ struct QuantisedBlock {
 // that blocks of equal step lie on one common grid.
 [[nodiscard]] BlockGrid gridFor(const Box3d& bounds);
 
-// Errors: counts of the block's arrays do not agree, indices out of range, positions not finite or beyond 1e15 m.
+// Errors: counts of the block's arrays do not agree, indices out of range, positions not finite or beyond 5e11 m.
 [[nodiscard]] Result<QuantisedBlock> quantiseBlock(const SourceBlock& block, const BlockTextures& textures);
 
 }  // namespace fb
