@@ -155,6 +155,17 @@ RC_GTEST_PROP(PresetToml, ReadBackGivesTheSameSettings, ()) {
     RC_ASSERT(settingsHash(back->settings) == settingsHash(preset.settings));
 }
 
+TEST(PresetToml, WritesAnAboutThatCanBeReadBackWhateverItHolds) {
+    for (int c = 0; c < 128; ++c) {
+        const std::string about = std::string("a") + static_cast<char>(c) + "b";
+        const Result<Preset> back = parsePreset(presetToml({"p", about, {}}), "p.toml");
+        ASSERT_TRUE(back) << "character " << c << ": " << back.error().oneLine();
+        EXPECT_EQ(back->about, c < 0x20 || c == 0x7f ? "a b" : about) << "character " << c;
+    }
+    const std::string greek = "\xce\xb5 and \xe2\x80\x94";
+    EXPECT_EQ(parsePreset(presetToml({"p", greek, {}}), "p.toml")->about, greek);
+}
+
 // A preset with a value of each kind, a comment and both ends of the rule.
 constexpr std::string_view kWhole =
     "# a comment\nabout = \"what it is for\"\n\n[select]\npolicy = \"lakhia-naive\"  # words\nc_vis = 2.5\n"
@@ -262,6 +273,13 @@ TEST_F(PresetFolders, SayWhatThereIsWhenANameIsNotKnown) {
     EXPECT_NE(preset.error().hint.find("default, lakhia2004"), std::string::npos) << preset.error().hint;
     EXPECT_FALSE(loadPreset((folder_ / "missing.toml").string()));
     EXPECT_FALSE(loadPreset(""));
+}
+
+TEST_F(PresetFolders, NothingIsSavedThatCouldNotBeReadBack) {
+    const Result<void> saved = savePreset({"x", "no \xff UTF-8", {}}, folder_ / "x.toml");
+    ASSERT_FALSE(saved);
+    EXPECT_EQ(saved.error().file, (folder_ / "x.toml").string());
+    EXPECT_EQ(folder_.entryCount(), 0);
 }
 
 TEST_F(PresetFolders, AFileThatCannotBeAPresetIsNotReadWhole) {
