@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+
+#include "base/result.h"
 
 namespace fb {
 
@@ -19,5 +22,8 @@ struct PayloadHeader {
     std::uint16_t textureWidth = 0, textureHeight = 0;
     std::uint32_t vertexBytes = 0, indexBytes = 0, textureBytes = 0;
 };
+
+// Every count against its cap and against the `left` bytes that follow the header; nothing is allocated before.
+[[nodiscard]] Result<void> checkPayloadHeader(const PayloadHeader& header, std::uint64_t left, const std::string& what);
 
 }  // namespace fb
