@@ -96,7 +96,7 @@ std::string presetToml(const Preset& preset) {
     std::string about;
     for (char c : preset.about) {
         if (c == '"' || c == '\\') about += '\\';
-        about += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        about += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
     }
     std::string text = "about = \"" + about + "\"\n";
     for (std::string_view group : knobGroups()) {
@@ -115,10 +115,13 @@ std::string presetToml(const Preset& preset) {
 }
 
 Result<void> savePreset(const Preset& preset, const std::filesystem::path& path) {
+    const std::string text = presetToml(preset);
+    if (Result<Preset> back = parsePreset(text, path.string()); !back)
+        return passOn(back);  // `about` is no UTF-8
     if (path.has_parent_path()) {
         if (Result<void> made = makeFolder(path.parent_path()); !made) return made;
     }
-    return writeFileAtomically(path, presetToml(preset));
+    return writeFileAtomically(path, text);
 }
 
 std::filesystem::path userPresetFolder() {
