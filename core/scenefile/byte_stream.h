@@ -1,5 +1,6 @@
-// Little-endian numbers of fixed width into and out of byte buffers. A reader never reads past its end: it gives zeros
-// from there on and remembers it, so that a record is read first and asked once whether it was whole.
+// Little-endian numbers of fixed width into and out of byte buffers. A reader never reads past its end: it
+// gives zeros from there on and remembers it, so that a record is read first and asked once whether it was
+// whole.
 #pragma once
 
 #include <bit>
@@ -18,8 +19,7 @@ static_assert(std::endian::native == std::endian::little, "vertices are coded as
 class ByteWriter {
   public:
     template <class T>
-        requires std::integral<T> || std::floating_point<T>
-    ByteWriter& put(T value) {
+    requires std::integral<T> || std::floating_point<T> ByteWriter& put(T value) {
         return copy(&value, sizeof(T));
     }
     ByteWriter& put(const glm::vec3& v) { return put(v.x).put(v.y).put(v.z); }
@@ -47,8 +47,7 @@ class ByteReader {
     explicit ByteReader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
 
     template <class T>
-        requires std::integral<T> || std::floating_point<T>
-    T get() {
+    requires std::integral<T> || std::floating_point<T> T get() {
         T value{};
         const std::span<const std::uint8_t> raw = take(sizeof(T));
         if (!raw.empty()) std::memcpy(&value, raw.data(), sizeof(T));

@@ -35,7 +35,8 @@ std::string disagreement(const char* of, std::uint64_t payload, std::uint64_t re
 // What the payload says of itself against what the hierarchy says of it; empty when they agree.
 std::string compareCounts(const NodeData& data, const Hierarchy& h, NodeId n) {
     const NodeMesh& mesh = data.mesh;
-    if (mesh.vertices.size() != h.vertices[n]) return disagreement("vertices", mesh.vertices.size(), h.vertices[n]);
+    if (mesh.vertices.size() != h.vertices[n])
+        return disagreement("vertices", mesh.vertices.size(), h.vertices[n]);
     if (mesh.texturedTriangles != h.texturedTriangles[n]) {
         return disagreement("textured triangles", mesh.texturedTriangles, h.texturedTriangles[n]);
     }
@@ -142,8 +143,10 @@ Result<void> checkPacks(Checker& checker, const HierarchyFile& file) {
             continue;
         }
         Result<PackTrailer> frame = readPackFrame(*pack, file.packs[b].number);
-        if (frame) blocks.push_back(std::move(frame->block));
-        else checker.fault(frame.error());
+        if (frame)
+            blocks.push_back(std::move(frame->block));
+        else
+            checker.fault(frame.error());
         for (NodeId n : nodesOf[b]) {
             checkPayload(checker, *pack, h, n);
             ++done;
@@ -170,7 +173,8 @@ Result<SceneCheck> checkScene(const std::filesystem::path& folder, const Progres
         return std::move(checker.found);
     }
     if (toml) {
-        if (Result<void> same = checkBelongTogether(folder, *toml, *hierarchy); !same) checker.fault(same.error());
+        if (Result<void> same = checkBelongTogether(folder, *toml, *hierarchy); !same)
+            checker.fault(same.error());
     }
     if (Result<void> all = checkPacks(checker, hierarchy->file); !all) return passOn(all);
     return std::move(checker.found);

@@ -14,7 +14,8 @@ namespace {
 constexpr int kRowsAtOnce = 64;  // stays in the second-level cache while it is widened
 
 std::string sizeText(int width, int height, int channels, const char* type) {
-    return std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(channels) + " " + type;
+    return std::to_string(width) + " x " + std::to_string(height) + " x " + std::to_string(channels) + " " +
+           type;
 }
 
 // Texels of 1 to 4 channels -> RGBA.
@@ -45,7 +46,8 @@ void widen(const std::uint8_t* from, std::size_t texels, int channels, std::uint
     }
 }
 
-// The native call: the one that converts takes 64 MiB of scratch memory for the smallest image (OpenImageIO 2.4).
+// The native call: the one that converts takes 64 MiB of scratch memory for the smallest image
+// (OpenImageIO 2.4).
 bool readRows(OIIO::ImageInput& input, const NodeTexture& texture, std::uint8_t* into) {
     const std::size_t rowTexels = texture.width;
     std::vector<std::uint8_t> rows(rowTexels * texture.channels * kRowsAtOnce);
@@ -61,7 +63,8 @@ bool readRows(OIIO::ImageInput& input, const NodeTexture& texture, std::uint8_t*
 
 }  // namespace
 
-Result<void> decodeTexture(const NodeTexture& texture, std::span<std::uint8_t> into, const std::string& what) {
+Result<void> decodeTexture(const NodeTexture& texture, std::span<std::uint8_t> into,
+                           const std::string& what) {
     FB_CHECK(into.size() == std::size_t{texture.width} * texture.height * 4);
     const bool jpeg = texture.codec == PayloadCodec::jpeg;
     // The format is given by name: opening by content would let any of OpenImageIO's readers at the bytes.
@@ -70,16 +73,18 @@ Result<void> decodeTexture(const NodeTexture& texture, std::span<std::uint8_t> i
     input->threads(1);
 
     OIIO::Filesystem::IOMemReader memory(texture.encoded.data(), texture.encoded.size());
-    if (!input->set_ioproxy(&memory)) return failure(what, "texture", "this OpenImageIO cannot read from memory");
+    if (!input->set_ioproxy(&memory))
+        return failure(what, "texture", "this OpenImageIO cannot read from memory");
     OIIO::ImageSpec wish, found;
     wish.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied with alpha
     if (!input->open(jpeg ? "texture.jpg" : "texture.png", found, wish)) {
         return failure(what, "texture", "cannot be opened: " + input->geterror());
     }
-    if (found.width != texture.width || found.height != texture.height || found.nchannels != texture.channels ||
-        found.depth != 1 || found.format != OIIO::TypeUInt8) {
+    if (found.width != texture.width || found.height != texture.height ||
+        found.nchannels != texture.channels || found.depth != 1 || found.format != OIIO::TypeUInt8) {
         return failure(what, "texture",
-                       "is " + sizeText(found.width, found.height, found.nchannels, found.format.c_str()) + " instead of " +
+                       "is " + sizeText(found.width, found.height, found.nchannels, found.format.c_str()) +
+                           " instead of " +
                            sizeText(texture.width, texture.height, texture.channels, "uint8"));
     }
     if (!readRows(*input, texture, into.data())) {

@@ -30,11 +30,14 @@ Hierarchy sixNodes() {
     h.level = {0, 0, 1, 1, 1, 2};
     h.block = {0, 1, 0, 0, 1, 0};
     h.geometricErrorMetres = {4, 3, 0, 2, 0, 0};
-    for (NodeId n = 0; n < 6; ++n) h.bounds[n] = {glm::vec3(0.0f), glm::vec3(8.0f - static_cast<float>(h.level[n]))};
+    for (NodeId n = 0; n < 6; ++n)
+        h.bounds[n] = {glm::vec3(0.0f), glm::vec3(8.0f - static_cast<float>(h.level[n]))};
     return h;
 }
 
-TEST(CheckHierarchy, AcceptsSixSoundNodes) { EXPECT_EQ(lineOf(checkHierarchy(sixNodes())), "no error"); }
+TEST(CheckHierarchy, AcceptsSixSoundNodes) {
+    EXPECT_EQ(lineOf(checkHierarchy(sixNodes())), "no error");
+}
 
 TEST(CheckHierarchy, NamesTheNodeThatBreaksARule) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -55,8 +58,10 @@ TEST(CheckHierarchy, NamesTheNodeThatBreaksARule) {
         {[](Hierarchy& h) { h.grids[1].step = 0.0; }, "block 1: the grid's step"},
         {[&](Hierarchy& h) { h.grids[1].step = inf; }, "block 1: the grid's step"},
         {[&](Hierarchy& h) { h.grids[1].step = nan; }, "block 1: the grid's step"},
-        {[](Hierarchy& h) { h.grids[0].step = std::ldexp(1.0, 41); }, "block 0: the grid's step is out of range"},
-        {[](Hierarchy& h) { h.grids[0].step = std::ldexp(1.0, -61); }, "block 0: the grid's step is out of range"},
+        {[](Hierarchy& h) { h.grids[0].step = std::ldexp(1.0, 41); },
+         "block 0: the grid's step is out of range"},
+        {[](Hierarchy& h) { h.grids[0].step = std::ldexp(1.0, -61); },
+         "block 0: the grid's step is out of range"},
         {[&](Hierarchy& h) { h.grids[0].origin.y = nan; }, "block 0: the grid's origin"},
         {[](Hierarchy& h) { h.grids[0].origin.z = 1e13; }, "block 0: the grid's origin"},
         {[](Hierarchy& h) { h.parent[1] = 0; }, "node 1: roots must come first"},
@@ -83,12 +88,16 @@ TEST(CheckHierarchy, NamesTheNodeThatBreaksARule) {
         {[&](Hierarchy& h) { h.bounds[0].min.y = nan; }, "node 0: the bounds are empty or not finite"},
         {[](Hierarchy& h) { h.geometricErrorMetres[3] = 4.5f; }, "node 3: the error must not exceed"},
         {[](Hierarchy& h) { h.geometricErrorMetres[5] = 1.0f; }, "node 5: the error of a leaf"},
-        {[&](Hierarchy& h) { h.geometricErrorMetres[0] = nan; }, "node 0: the error is negative or not finite"},
+        {[&](Hierarchy& h) { h.geometricErrorMetres[0] = nan; },
+         "node 0: the error is negative or not finite"},
         {[](Hierarchy& h) { h.staticBenefit[3] = -1.0f; }, "node 3: the benefit"},
         {[&](Hierarchy& h) { h.areaSquareMetres[3] = inf; }, "node 3: the area"},
         {[](Hierarchy& h) { h.normalCoherence[3] = 1.0001f; }, "node 3: the coherence"},
         {[&](Hierarchy& h) { h.normalCoherence[3] = nan; }, "node 3: the coherence"},
-        {[](Hierarchy& h) { h.averageNormal[3] = {0.0f, 0.5f, 0.0f}; }, "node 3: the average normal is neither"},
+        {[](Hierarchy& h) {
+             h.averageNormal[3] = {0.0f, 0.5f, 0.0f};
+         },
+         "node 3: the average normal is neither"},
         {[&](Hierarchy& h) { h.averageNormal[3].x = nan; }, "node 3: the average normal is not finite"},
         {[](Hierarchy& h) { h.vertices[4] = kMaxNodeVertices + 1; }, "node 4: there are more vertices"},
         {[](Hierarchy& h) { h.texturedTriangles[4] = kMaxNodeTriangles, h.untexturedTriangles[4] = 1; },
@@ -102,7 +111,8 @@ TEST(CheckHierarchy, NamesTheNodeThatBreaksARule) {
     for (const Case& each : cases) {
         Hierarchy h = sixNodes();
         each.damage(h);
-        EXPECT_TRUE(says(lineOf(checkHierarchy(h)), each.error)) << each.error << "\nfound: " << lineOf(checkHierarchy(h));
+        EXPECT_TRUE(says(lineOf(checkHierarchy(h)), each.error))
+            << each.error << "\nfound: " << lineOf(checkHierarchy(h));
     }
 }
 

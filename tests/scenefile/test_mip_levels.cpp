@@ -15,9 +15,11 @@ namespace {
 using Texel = std::array<std::uint8_t, 4>;
 
 // Level 0 and room for the others.
-std::vector<std::uint8_t> levelsOf(const std::vector<Texel>& texels, std::uint32_t width, std::uint32_t height) {
+std::vector<std::uint8_t> levelsOf(const std::vector<Texel>& texels, std::uint32_t width,
+                                   std::uint32_t height) {
     std::vector<std::uint8_t> all(mippedBytes(width, height), 0xcd);
-    for (std::size_t i = 0; i < texels.size(); ++i) std::copy(texels[i].begin(), texels[i].end(), &all[i * 4]);
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        std::copy(texels[i].begin(), texels[i].end(), &all[i * 4]);
     return all;
 }
 
@@ -51,7 +53,8 @@ TEST(BuildMipLevels, AveragesAFourByFourByHand) {
 }
 
 TEST(BuildMipLevels, AveragesEachChannelForItself) {
-    std::vector<std::uint8_t> all = levelsOf({{4, 0, 255, 255}, {4, 0, 255, 255}, {8, 1, 0, 255}, {8, 1, 0, 255}}, 2, 2);
+    std::vector<std::uint8_t> all =
+        levelsOf({{4, 0, 255, 255}, {4, 0, 255, 255}, {8, 1, 0, 255}, {8, 1, 0, 255}}, 2, 2);
     buildMipLevels(all, 2, 2, MipAlpha::opaque);
     EXPECT_EQ(texelAt(all, 4), (Texel{6, 1, 128, 255}));  // 0.5 and 127.5 go up
 }
@@ -63,7 +66,8 @@ TEST(BuildMipLevels, AveragesAllOfAThreeByThree) {
     EXPECT_EQ(texelAt(all, 9), (Texel{5, 5, 5, 255}));
 }
 
-// Five texels become two; each covers two and a half: (2*0 + 2*10 + 1*50)/5 = 14 and (1*50 + 2*20 + 2*30)/5 = 30.
+// Five texels become two; each covers two and a half: (2*0 + 2*10 + 1*50)/5 = 14 and (1*50 + 2*20 + 2*30)/5
+// = 30.
 TEST(BuildMipLevels, SharesTheMiddleOfFiveBetweenTwo) {
     std::vector<std::uint8_t> all = levelsOf(greys({0, 10, 50, 20, 30}), 5, 1);
     buildMipLevels(all, 5, 1, MipAlpha::opaque);
@@ -91,20 +95,22 @@ TEST(BuildMipLevels, DoesNotBleedTheColourOfHoles) {
 
 // Weights 255, 51, 0, 0: red (255*100 + 51*40) / 306 = 90; alpha 306 / 4 = 76.5 goes up.
 TEST(BuildMipLevels, WeightsColoursByAlpha) {
-    std::vector<std::uint8_t> all = levelsOf({{100, 0, 0, 255}, {40, 0, 0, 51}, {255, 9, 9, 0}, {255, 9, 9, 0}}, 2, 2);
+    std::vector<std::uint8_t> all =
+        levelsOf({{100, 0, 0, 255}, {40, 0, 0, 51}, {255, 9, 9, 0}, {255, 9, 9, 0}}, 2, 2);
     buildMipLevels(all, 2, 2, MipAlpha::weighted);
     EXPECT_EQ(texelAt(all, 4), (Texel{90, 0, 0, 77}));
 }
 
 TEST(BuildMipLevels, KeepsTheColourUnderAWholeHole) {
-    std::vector<std::uint8_t> all = levelsOf({{10, 20, 30, 0}, {20, 20, 30, 0}, {30, 20, 30, 0}, {40, 20, 31, 0}}, 2, 2);
+    std::vector<std::uint8_t> all =
+        levelsOf({{10, 20, 30, 0}, {20, 20, 30, 0}, {30, 20, 30, 0}, {40, 20, 31, 0}}, 2, 2);
     buildMipLevels(all, 2, 2, MipAlpha::weighted);
     EXPECT_EQ(texelAt(all, 4), (Texel{25, 20, 30, 0}));
 }
 
-// One texel of each 2x2 is a leaf: every mean alpha is 64, all below the shader's 128, so plain averaging would make the
-// whole fence vanish. A share of 1/4 of level 1's four texels is one, but all are equal: none (missing by 1) is nearer
-// than four (missing by 3).
+// One texel of each 2x2 is a leaf: every mean alpha is 64, all below the shader's 128, so plain averaging
+// would make the whole fence vanish. A share of 1/4 of level 1's four texels is one, but all are equal: none
+// (missing by 1) is nearer than four (missing by 3).
 TEST(BuildMipLevels, TakesTheNearestCoverageThatThereIs) {
     std::vector<Texel> texels(16, Texel{0, 0, 0, 0});
     for (std::size_t i : {0u, 2u, 8u, 10u}) texels[i] = {9, 9, 9, 255};
@@ -113,8 +119,9 @@ TEST(BuildMipLevels, TakesTheNearestCoverageThatThereIs) {
     for (std::size_t i = 16; i < 21; ++i) EXPECT_LT(texelAt(all, i)[3], 128);
 }
 
-// Level 0 is a random mask of which 30 % are kept. A threshold can only take all texels of one alpha or none, so a level
-// misses the share by at most half of its commonest alpha's share; the plain mean loses the mask altogether.
+// Level 0 is a random mask of which 30 % are kept. A threshold can only take all texels of one alpha or none,
+// so a level misses the share by at most half of its commonest alpha's share; the plain mean loses the mask
+// altogether.
 TEST(BuildMipLevels, KeepsTheCoverageOfAMask) {
     Random random(5);
     constexpr std::uint32_t kSide = 256;

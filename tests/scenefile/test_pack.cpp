@@ -21,7 +21,9 @@ using test::says;
 using test::TemporaryFolder;
 
 // All that a block says, as bytes: equal blocks give equal bytes.
-Bytes asBytes(const BuiltBlock& block) { return encodeTrailer({0, 0, block}); }
+Bytes asBytes(const BuiltBlock& block) {
+    return encodeTrailer({0, 0, block});
+}
 
 bool reusable(const std::filesystem::path& folder) {
     return reusePack(folder, 0, kSettingsHash, kBlockHash).has_value();
@@ -88,7 +90,8 @@ TEST(ReusePack, GivesNothingForAnyFlippedBit) {
     }
 }
 
-// A trailer with a true checksum is still not believed: this is what a bug of a writer, or malice, would look like.
+// A trailer with a true checksum is still not believed: this is what a bug of a writer, or malice, would look
+// like.
 TEST(ReusePack, GivesNothingForASealedBlockThatBreaksTheRules) {
     const TemporaryFolder folder;
     const BuiltBlock good = test::writePack(folder.path(), 0, test::tinyBlock(2));
@@ -130,10 +133,13 @@ TEST(ParseTrailer, BelievesNoCountThatTheBytesCannotHold) {
     const Bytes good = encodeTrailer({0, 0, built});
     EXPECT_EQ(good.size(), kLeastTrailerBytes);
     EXPECT_TRUE(parseTrailer(good, "pack"));
-    for (std::uint64_t count : {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{kMaxNodes} + 1, ~std::uint64_t{0}}) {
+    for (std::uint64_t count :
+         {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{kMaxNodes} + 1, ~std::uint64_t{0}}) {
         Bytes bytes = good;
         std::memcpy(bytes.data() + 56, &count, 8);
-        EXPECT_TRUE(says(lineOf(parseTrailer(bytes, "pack")), "pack: trailer: claims a wrong number of nodes")) << count;
+        EXPECT_TRUE(
+            says(lineOf(parseTrailer(bytes, "pack")), "pack: trailer: claims a wrong number of nodes"))
+            << count;
     }
 }
 
@@ -165,7 +171,8 @@ TEST(PackWriter, SaysWhichFileCannotBeWritten) {
     const TemporaryFolder folder;
     test::overwrite(folder.path() / "blocks", {});  // a file where the folder should be
     EXPECT_TRUE(says(lineOf(PackWriter::create(folder.path(), 0)), "blocks: the folder cannot be made"));
-    EXPECT_TRUE(says(lineOf(PackWriter::create("/proc/nowhere", 0)), "/proc/nowhere/blocks: the folder cannot be made"));
+    EXPECT_TRUE(says(lineOf(PackWriter::create("/proc/nowhere", 0)),
+                     "/proc/nowhere/blocks: the folder cannot be made"));
 }
 
 TEST(PackWriter, AcceptsTheLastBlockNumberAndRefusesTheNext) {

@@ -27,7 +27,8 @@ Raw rawOf(const NodeVertex& v) {
     return raw;
 }
 
-// The triangles of one range as sets of vertex values, independent of their order and of the corner they begin with.
+// The triangles of one range as sets of vertex values, independent of their order and of the corner they
+// begin with.
 std::vector<Triangle> trianglesOf(const NodeMesh& mesh, std::size_t first, std::size_t count) {
     std::vector<Triangle> triangles;
     for (std::size_t t = first; t < first + count; ++t) {
@@ -50,14 +51,16 @@ std::vector<Raw> verticesOf(const NodeMesh& mesh) {
 NodeData randomNode() {
     NodeData node;
     Random random(*rc::gen::arbitrary<std::uint64_t>());
-    const auto vertices = *rc::gen::inRange<std::uint32_t>(1, 700);  // more than two blocks of the vertex codec
+    const auto vertices =
+        *rc::gen::inRange<std::uint32_t>(1, 700);  // more than two blocks of the vertex codec
     for (std::uint32_t i = 0; i < vertices; ++i) {
         NodeVertex v{};
         // Distinct, so that triangles can be told apart.
         v.x = i;
         v.y = static_cast<std::uint32_t>(random.index(kGridCells));
         v.z = static_cast<std::uint32_t>(random.index(100));
-        encodeNormal({static_cast<float>(random.normal()), static_cast<float>(random.normal()), 1.0f}, v.normal);
+        encodeNormal({static_cast<float>(random.normal()), static_cast<float>(random.normal()), 1.0f},
+                     v.normal);
         v.u = static_cast<std::uint16_t>(random.bits());
         v.v = static_cast<std::uint16_t>(random.bits());
         for (std::uint8_t& c : v.colour) c = static_cast<std::uint8_t>(random.bits());
@@ -112,12 +115,15 @@ TEST(Payload, MayBeWithoutTriangles) {
     EXPECT_EQ(read->texture.codec, PayloadCodec::none);
 }
 
-Bytes tinyPayload() { return encodePayload(test::oneTriangle(8, test::makeTexture(PayloadCodec::jpeg, 4, 4, 3, 1))).value(); }
+Bytes tinyPayload() {
+    return encodePayload(test::oneTriangle(8, test::makeTexture(PayloadCodec::jpeg, 4, 4, 3, 1))).value();
+}
 
 TEST(ParsePayload, RefusesEveryPrefix) {
     const Bytes bytes = tinyPayload();
     for (std::size_t length = 0; length < bytes.size(); ++length) {
-        const Bytes prefix(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));  // ASan sees its end
+        const Bytes prefix(bytes.begin(),
+                           bytes.begin() + static_cast<std::ptrdiff_t>(length));  // ASan sees its end
         const Result<NodeData> read = parsePayload(prefix, "node");
         EXPECT_FALSE(read) << length;
     }
@@ -129,7 +135,8 @@ TEST(ParsePayload, RefusesOneByteMore) {
     EXPECT_TRUE(says(lineOf(parsePayload(bytes, "node")), "node: the node's parts take"));
 }
 
-// Checksums find these (see the scene's tests); here the parser itself must survive and stay within its own rules.
+// Checksums find these (see the scene's tests); here the parser itself must survive and stay within its own
+// rules.
 TEST(ParsePayload, SurvivesEveryFlippedBit) {
     const Bytes good = tinyPayload();
     for (std::size_t bit = 0; bit < good.size() * 8; ++bit) {
@@ -147,7 +154,8 @@ TEST(ParsePayload, SurvivesEveryFlippedBit) {
 TEST(ParsePayload, NamesAnotherVersion) {
     Bytes bytes = tinyPayload();
     bytes[4] = 7;
-    EXPECT_EQ(lineOf(parsePayload(bytes, "node")), "node: made by version 7; this program reads 1 (build it again)");
+    EXPECT_EQ(lineOf(parsePayload(bytes, "node")),
+              "node: made by version 7; this program reads 1 (build it again)");
 }
 
 PayloadHeader soundHeader() {
@@ -164,7 +172,8 @@ PayloadHeader soundHeader() {
 }
 
 std::string verdict(const PayloadHeader& h) {
-    return lineOf(checkPayloadHeader(h, std::uint64_t{h.vertexBytes} + h.indexBytes + h.textureBytes, "node"));
+    return lineOf(
+        checkPayloadHeader(h, std::uint64_t{h.vertexBytes} + h.indexBytes + h.textureBytes, "node"));
 }
 
 TEST(CheckPayloadHeader, AcceptsCountsAtTheirCapsAndNoneAbove) {
@@ -276,7 +285,8 @@ TEST(DecodeNode, WidensPngsToFourChannels) {
             const std::array<int, 4> expected = {from[0], from[colour ? 1 : 0], from[colour ? 2 : 0],
                                                  channels % 2 == 0 ? from[channels - 1] : 255};
             for (std::size_t c = 0; c < 4; ++c) {
-                ASSERT_EQ(decoded->texels[i * 4 + c], expected[c]) << int{channels} << " channels, texel " << i;
+                ASSERT_EQ(decoded->texels[i * 4 + c], expected[c])
+                    << int{channels} << " channels, texel " << i;
             }
         }
     }
@@ -303,15 +313,18 @@ TEST(DecodeNode, RefusesATextureThatIsNotWhatTheHeaderSays) {
     EXPECT_TRUE(says(lineOf(decodeNode(test::oneTriangle(0, texture), BlockGrid{}, "node")),
                      "node: texture: is 8 x 8 x 3 uint8 instead of 8 x 4 x 3 uint8"));
     texture.height = 8, texture.channels = 4;
-    EXPECT_TRUE(says(lineOf(decodeNode(test::oneTriangle(0, texture), BlockGrid{}, "node")), "instead of 8 x 8 x 4"));
+    EXPECT_TRUE(
+        says(lineOf(decodeNode(test::oneTriangle(0, texture), BlockGrid{}, "node")), "instead of 8 x 8 x 4"));
     texture.channels = 3, texture.codec = PayloadCodec::jpeg;
-    EXPECT_TRUE(says(lineOf(decodeNode(test::oneTriangle(0, texture), BlockGrid{}, "node")), "cannot be opened"));
+    EXPECT_TRUE(
+        says(lineOf(decodeNode(test::oneTriangle(0, texture), BlockGrid{}, "node")), "cannot be opened"));
     texture.codec = PayloadCodec::png, texture.encoded[60] ^= 0xff;  // in the compressed texels
     EXPECT_FALSE(decodeNode(test::oneTriangle(0, texture), BlockGrid{}, "node"));
 }
 
-// Of the 2x2 quads four are half leaf, one is three quarters leaf, eleven are holes: 11 of 64 texels, so 2.75 of the 16
-// of level 1 should pass. The plain means (128 four times, 191) let 5 pass; asking for more lets 1 pass, which is nearer.
+// Of the 2x2 quads four are half leaf, one is three quarters leaf, eleven are holes: 11 of 64 texels, so 2.75
+// of the 16 of level 1 should pass. The plain means (128 four times, 191) let 5 pass; asking for more lets 1
+// pass, which is nearer.
 TEST(DecodeNode, KeepsCoverageOnlyForMasks) {
     Bytes pixels(8 * 8 * 4, 0);
     const auto leaf = [&](std::size_t x, std::size_t y) { pixels[(y * 8 + x) * 4 + 3] = 255; };

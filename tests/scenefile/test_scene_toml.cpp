@@ -44,7 +44,8 @@ TEST(SceneToml, IsWrittenForPeople) {
         "# A Frontbench scene. Lengths are metres, hashes are XXH3.\n"
         "format = 1\n"
         "program = \"frontbench 1.2.3\"\n"
-        "name = \"L\xc3\xbc" "beck \\\"old\\\" town\\u000a\"\n"
+        "name = \"L\xc3\xbc"
+        "beck \\\"old\\\" town\\u000a\"\n"
         "up = \"z\"\n"
         "origin = [6512345.0999999996, -0.10000000000000001, 1.0000000000000001e-09]"
         "  # added to a position of this scene gives the source's\n"
@@ -67,10 +68,10 @@ bool same(const SceneInfo& a, const SceneInfo& b) {
     bool walks = a.walks.size() == b.walks.size();
     for (std::size_t i = 0; walks && i < a.walks.size(); ++i) walks = a.walks[i].points == b.walks[i].points;
     return walks && a.name == b.name && a.program == b.program && a.origin == b.origin && a.up == b.up &&
-           a.bounds.min == b.bounds.min && a.bounds.max == b.bounds.max && a.sourceTriangles == b.sourceTriangles &&
-           a.sourceAreaSquareMetres == b.sourceAreaSquareMetres && a.sourceHash == b.sourceHash &&
-           a.buildSettingsHash == b.buildSettingsHash && a.sourceFiles == b.sourceFiles &&
-           a.reportLines == b.reportLines;
+           a.bounds.min == b.bounds.min && a.bounds.max == b.bounds.max &&
+           a.sourceTriangles == b.sourceTriangles && a.sourceAreaSquareMetres == b.sourceAreaSquareMetres &&
+           a.sourceHash == b.sourceHash && a.buildSettingsHash == b.buildSettingsHash &&
+           a.sourceFiles == b.sourceFiles && a.reportLines == b.reportLines;
 }
 
 TEST(SceneToml, IsReadBackAsItWas) {
@@ -83,7 +84,9 @@ TEST(SceneToml, IsReadBackAsItWas) {
 
 RC_GTEST_PROP(SceneToml, IsReadBackAsItWasForAnyNumbersAndTexts, ()) {
     SceneToml scene = sample();
-    const auto metres = [] { return static_cast<double>(*rc::gen::arbitrary<std::int64_t>()) * 0x1.0p-24 / 3.0; };
+    const auto metres = [] {
+        return static_cast<double>(*rc::gen::arbitrary<std::int64_t>()) * 0x1.0p-24 / 3.0;
+    };
     scene.info.origin = {metres(), metres(), metres()};
     scene.info.name = *rc::gen::string<std::string>();
     scene.info.sourceFiles = *rc::gen::container<std::vector<std::string>>(rc::gen::string<std::string>());
@@ -108,7 +111,8 @@ RC_GTEST_PROP(SceneToml, IsReadBackAsItWasForAnyNumbersAndTexts, ()) {
 TEST(TomlString, EscapesWhatTomlCannotHold) {
     EXPECT_EQ(tomlString("a\"b\\c\td\x7f"), "\"a\\\"b\\\\c\\u0009d\\u007f\"");
     EXPECT_EQ(tomlString(std::string_view("\0", 1)), "\"\\u0000\"");
-    EXPECT_EQ(tomlString("\xe2\x82\xac \xf0\x9f\x8c\x8d"), "\"\xe2\x82\xac \xf0\x9f\x8c\x8d\"");  // euro sign, globe
+    EXPECT_EQ(tomlString("\xe2\x82\xac \xf0\x9f\x8c\x8d"),
+              "\"\xe2\x82\xac \xf0\x9f\x8c\x8d\"");  // euro sign, globe
     EXPECT_EQ(tomlString("\xff|\xc0\x80|\xe2\x82|\xed\xa0\x80|\xf4\x90\x80\x80"),
               "\"?|??|??|???|????\"");  // not a lead, too long a form, cut short, surrogate, beyond the last
 }
@@ -122,7 +126,8 @@ TEST(SceneToml, NamesTheLineThatIsWrong) {
         text.replace(at, from.size(), to);
         return lineOf(parseSceneToml(text, "scene.toml"));
     };
-    EXPECT_TRUE(says(with("format = 1", "format = 9"), "line 2: made by version 9; this program reads 1 (build it again)"));
+    EXPECT_TRUE(says(with("format = 1", "format = 9"),
+                     "line 2: made by version 9; this program reads 1 (build it again)"));
     EXPECT_TRUE(says(with("format = 1", "format = \"1\""), "\"format\" must be a whole number"));
     EXPECT_TRUE(says(with("up = \"z\"", "up = \"x\""), "line 5: \"up\" must be \"y\" or \"z\""));
     EXPECT_TRUE(says(with("up = \"z\"\n", ""), "\"up\" is missing"));
@@ -132,7 +137,8 @@ TEST(SceneToml, NamesTheLineThatIsWrong) {
     EXPECT_TRUE(says(with("-0.10000000000000001", "1.1e12"), "line 6: \"origin\" must be three finite"));
     EXPECT_TRUE(says(with("-0.10000000000000001", "\"1\""), "line 6: \"origin\" must be three finite"));
     EXPECT_TRUE(says(with("bounds_min = [-1.5", "bounds_min = [3.5"), "must not exceed"));
-    EXPECT_TRUE(says(with("source_triangles = 1", "source_triangles = -1"), "\"source_triangles\" must be a whole number"));
+    EXPECT_TRUE(says(with("source_triangles = 1", "source_triangles = -1"),
+                     "\"source_triangles\" must be a whole number"));
     EXPECT_TRUE(says(with("0.33333333333333331", "nan"), "\"source_area_m2\" must be a finite number"));
     EXPECT_TRUE(says(with("0.33333333333333331", "inf"), "\"source_area_m2\" must be a finite number"));
     EXPECT_TRUE(says(with("\"fedcba9876543210\"", "\"fedcba987654321\""), "\"source_hash\" must be 16"));
