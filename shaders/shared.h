@@ -38,8 +38,8 @@ struct FrameData {
     float unused4;
 };
 
-// One draw: the part of a node that one program draws. A vertex relative to the eye is (position + coarse) + fine;
-// the first sum is exact where it matters (see splitTranslation).
+// One draw: the part of a node that one program draws. A vertex relative to the eye is (position + coarse) + fine,
+// added up in this order (see splitTranslation).
 struct DrawData {
     vec3 coarse;
     uint layer;  // in the texture array

@@ -34,7 +34,8 @@ void writeDraws(const DrawInput& input, const DrawLists& lists, std::span<gpu::D
     for (std::size_t i = 0; i < lists.draws.size(); ++i) {
         const Draw& draw = lists.draws[i];
         const Hierarchy& h = input.hierarchy;
-        const SplitTranslation split = splitTranslation(h.grids[h.block[draw.node]], input.view.camera.eye);
+        const SplitTranslation split =
+            splitTranslation(h.grids[h.block[draw.node]].origin, input.view.camera.eye);
         data[i] = {split.coarse, draw.layer, split.fine, draw.baseVertex, levelColour(h.level[draw.node]), 0};
     }
 }

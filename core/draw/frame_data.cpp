@@ -53,14 +53,11 @@ FrameData frameData(const View& view, const glm::vec3& up) {
     return frame;
 }
 
-SplitTranslation splitTranslation(const BlockGrid& grid, const glm::dvec3& eye) {
+SplitTranslation splitTranslation(const glm::dvec3& origin, const glm::dvec3& eye) {
+    const glm::dvec3 translation = origin - eye;
     SplitTranslation split;
-    const glm::dvec3 translation = grid.origin - eye;
-    for (int i = 0; i < 3; ++i) {
-        const double steps = std::round(translation[i] / grid.step);
-        split.coarse[i] = static_cast<float>(std::isfinite(steps) ? steps * grid.step : translation[i]);
-        split.fine[i] = static_cast<float>(translation[i] - static_cast<double>(split.coarse[i]));
-    }
+    split.coarse = glm::vec3(translation);
+    split.fine = glm::vec3(translation - glm::dvec3(split.coarse));
     return split;
 }
 

@@ -3,9 +3,6 @@
 // scene far from its origin neither jitters nor cracks.
 #pragma once
 
-#include <array>
-
-#include "scenefile/hierarchy.h"
 #include "select/view.h"
 #include "shaders/shared.h"
 
@@ -14,12 +11,13 @@ namespace fb {
 // `up` of length 0 or not finite counts as (0, 1, 0).
 [[nodiscard]] gpu::FrameData frameData(const View& view, const glm::vec3& up);
 
-// origin - eye as coarse + fine. Coarse is a multiple of the grid's step, like every position, so position +
-// coarse is exact within 2^24 steps of the eye and the final sum is rounded once: to half a unit in the last
-// place of a distance from the eye, whatever the size of the block.
+// origin - eye as coarse + fine: the float nearest to it and what is missing. (position + coarse) + fine is
+// then right to the last place of a distance from the eye, whatever the size of the block: near the eye
+// position and coarse cancel, and floats within a factor of 2 of each other are subtracted exactly (Sterbenz
+// 1974).
 struct SplitTranslation {
     glm::vec3 coarse, fine;
 };
-[[nodiscard]] SplitTranslation splitTranslation(const BlockGrid& grid, const glm::dvec3& eye);
+[[nodiscard]] SplitTranslation splitTranslation(const glm::dvec3& origin, const glm::dvec3& eye);
 
 }  // namespace fb

@@ -110,27 +110,37 @@ TEST_F(DrawTest, IsAsPreciseInTheFarCornerOfALargeBlock) {
     EXPECT_EQ(picture(large, viewAlongZ(eye, 400, 400)).pixels, expected.pixels);
 }
 
-// What the vertex shader adds up, against the same in double: half a unit in the last place of the result.
-RC_GTEST_PROP(SplitTranslation, KeepsPositionsNearTheEyeToTheLastPlace, ()) {
-    BlockGrid grid;
-    grid.step = std::ldexp(1.0, -*rc::gen::inRange(0, 13));
-    const auto anywhere = rc::gen::inRange<std::int64_t>(-7'000'000'000, 7'000'000'000);
-    const auto onGrid = rc::gen::inRange<std::int64_t>(0, 1 << 24);
-    for (int i = 0; i < 3; ++i) grid.origin[i] = static_cast<double>(*anywhere) * 1e-3;
-    glm::dvec3 eye = grid.origin;
-    glm::vec3 position;
-    for (int i = 0; i < 3; ++i) {
-        const auto steps = *onGrid;
-        position[i] = static_cast<float>(static_cast<double>(steps) * grid.step);
-        const auto offset = *rc::gen::inRange<std::int64_t>(-200'000, 200'000);  // the eye within 20 m
-        eye[i] += static_cast<double>(steps) * grid.step + static_cast<double>(offset) * 1e-4;
+// Positions in steps of 8 m, the eye 3 m right of and 2 m below a grid point: the square from -8 to 8 lies
+// from -11 to 5 across and from -6 to 10 upward, on pixels 9 to 24 and 10 to 25 of 40.
+TEST_F(DrawTest, PutsTheEyeBetweenTheStepsOfTheGrid) {
+    World world;
+    world.add(colouredRectangle(-8, -8, 8, 8, -24, kRed), {}, 0, 8.0);
+    world.uploadAll(*renderer);
+    const Image image = picture(world, viewAlongZ({3, -2, -4}, 40, 40));
+    for (int y = 0; y < 40; ++y) {
+        const bool inside = y >= 10 && y <= 25;
+        EXPECT_EQ(row(image, y, {{'r', kRed}}),
+                  inside ? std::string(9, '.') + std::string(16, 'r') + std::string(15, '.')
+                         : std::string(40, '.'));
     }
-    const SplitTranslation split = splitTranslation(grid, eye);
+}
+
+// What the vertex shader adds up, against the same in double: two roundings to the last place of the result,
+// and the rounding of the fine part, which is below 1e-7 m within 10,000 km.
+RC_GTEST_PROP(SplitTranslation, KeepsPositionsNearTheEyeToTheLastPlace, ()) {
+    const double step = std::ldexp(1.0, -*rc::gen::inRange(0, 13));
+    const auto anywhere = rc::gen::inRange<std::int64_t>(-7'000'000'000, 7'000'000'000);
     for (int i = 0; i < 3; ++i) {
-        const double exact = static_cast<double>(position[i]) + (grid.origin[i] - eye[i]);
-        const float onGridSum = position[i] + split.coarse[i];
-        const float result = onGridSum + split.fine[i];
-        RC_ASSERT(std::abs(result - exact) <= 0x1p-24 * (std::abs(exact) + grid.step));
+        const double origin = static_cast<double>(*anywhere) * 1e-3;
+        const double onGrid = static_cast<double>(*rc::gen::inRange<std::int64_t>(0, 1 << 24)) * step;
+        const double nearby = static_cast<double>(*rc::gen::inRange<std::int64_t>(-200'000, 200'000)) * 1e-4;
+        const double eye = origin + onGrid + nearby;
+        const SplitTranslation split = splitTranslation(glm::dvec3(origin), glm::dvec3(eye));
+        const auto position = static_cast<float>(onGrid);
+        const float coarseSum = position + split.coarse[i];
+        const float result = coarseSum + split.fine[i];
+        const double exact = onGrid + (origin - eye);
+        RC_ASSERT(std::abs(result - exact) <= 0x1p-23 * std::abs(exact) + 1e-7);
     }
 }
 
