@@ -10,7 +10,6 @@
 namespace fb {
 namespace {
 
-constexpr double kBytesPerMiB = 1048576.0;
 constexpr std::uint64_t kSmallestWindowBytes = std::uint64_t{8} << 20;
 
 // Requests that can no longer come to anything: their group has lost a member for good.

@@ -47,7 +47,7 @@ struct PlanInput {
 
 // maxMemory in bytes.
 [[nodiscard]] inline std::uint64_t budgetBytes(const LoadSettings& load) {
-    return static_cast<std::uint64_t>(load.budgetMiB * 1048576.0);
+    return static_cast<std::uint64_t>(load.budgetMiB * kBytesPerMiB);
 }
 
 // Bytes that may be in flight at once: an eighth of the budget, at least 8 MiB; a larger group goes alone.
