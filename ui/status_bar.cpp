@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "load/residency.h"
 #include "ui/panels.h"
 
 namespace fb {
@@ -31,8 +32,8 @@ void drawStatusBar(const UiInput& input) {
         const std::string_view binds = whatBinds(r);
         ImGui::Text("%.1f of %.1f ms | %u nodes, %.0f K triangles | binds: %.*s | %.0f of %.0f MiB", r.actualMs, r.targetMs,
                     r.frontNodes, static_cast<double>(r.triangles) / 1e3, static_cast<int>(binds.size()), binds.data(),
-                    static_cast<double>(r.residentBytes + r.reservedBytes) / 1048576.0,
-                    static_cast<double>(r.budgetBytes) / 1048576.0);
+                    static_cast<double>(r.residentBytes + r.reservedBytes) / kBytesPerMiB,
+                    static_cast<double>(r.budgetBytes) / kBytesPerMiB);
     }
     ImGui::SameLine();
     ImGui::TextDisabled("| %.*s |", static_cast<int>(input.device.size()), input.device.data());

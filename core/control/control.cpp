@@ -35,7 +35,7 @@ void feedBackShare(ControlState& state, const ControlSettings& settings, const F
     if (actualMs < settings.shareLow * settings.targetMs && f.refusedGroups > 0) {
         state.shareScale *= 1.0 + settings.shareGain;
     } else if (actualMs > settings.shareHigh * settings.targetMs && !f.onlyRoots) {
-        state.shareScale *= 1.0 - settings.shareGain;
+        state.shareScale *= 1.0 - settings.shareDrop;
     }
     state.shareScale = std::clamp(state.shareScale, kSmallestScale, settings.shareLimit);
 }

@@ -1,4 +1,5 @@
-// An OpenGL 4.5 core context without a window or a display server (EGL, surfaceless): headless replays and tests.
+// An OpenGL 4.5 core context without a window or a display server (EGL, surfaceless): headless replays and
+// tests.
 #pragma once
 
 #include <memory>

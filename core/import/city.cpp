@@ -47,7 +47,9 @@ class CitySource final : public BlockSource {
     SourceInfo info_;
 };
 
-std::string countText(std::uint64_t count) { return std::to_string(count); }
+std::string countText(std::uint64_t count) {
+    return std::to_string(count);
+}
 
 Result<void> checkOptions(const CityOptions& options) {
     if (options.blocks == 0 || options.blocks > kMostBlocks) {
@@ -58,10 +60,13 @@ Result<void> checkOptions(const CityOptions& options) {
                            std::uint64_t most) -> Result<void> {
         const std::uint64_t low = least * options.blocks, high = most * options.blocks;
         if (value >= low && value <= high) return {};
-        return usageFailure(option, countText(value) + " " + what + " do not fit " + countText(options.blocks) + " blocks",
-                            countText(low) + " to " + countText(high));
+        return usageFailure(
+            option, countText(value) + " " + what + " do not fit " + countText(options.blocks) + " blocks",
+            countText(low) + " to " + countText(high));
     };
-    if (auto fits = check("--triangles", "triangles", options.triangles, kLeastTriangles, kMostTriangles); !fits) return fits;
+    if (auto fits = check("--triangles", "triangles", options.triangles, kLeastTriangles, kMostTriangles);
+        !fits)
+        return fits;
     return check("--texels", "texels", options.texels, kLeastTexels, kMostTexels);
 }
 

@@ -19,7 +19,8 @@ std::uint32_t addPicture(SourceBlock& block, const std::string& name, Image&& im
 
 }  // namespace
 
-SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& budget, const std::string& name) {
+SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& budget,
+                      const std::string& name) {
     const UnitDesign design = designUnit(plan, unit);
     const std::span<const Thing> things(design.things.data(), budget.things);
     SourceBlock block;
@@ -36,9 +37,11 @@ SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& 
         std::uint32_t material = kGrey;
         if (!budget.grey[i]) {
             const PictureSize size = facadePictureSize(facade, features, budget.texelsPerMetre);
-            material = addPicture(block, "facade " + std::to_string(i + 1), paintFacade(facade, features, size));
+            material =
+                addPicture(block, "facade " + std::to_string(i + 1), paintFacade(facade, features, size));
         }
-        const FacadeGrid grid = fillGrid(features, budget.spacing * spacingFactor(facade.role), facade.seed + 9);
+        const FacadeGrid grid =
+            fillGrid(features, budget.spacing * spacingFactor(facade.role), facade.seed + 9);
         addFacade(facade, grid, detail, material, !budget.grey[i], mesh);
     }
     const PictureSize size = aerialPictureSize(unit, budget.texelsPerMetre);

@@ -8,8 +8,8 @@
 namespace fb::city {
 namespace {
 
-constexpr double kGreyShare = 0.10;        // of all triangles
-constexpr double kThingShare = 0.07;       // of all triangles: things, if there are enough of them
+constexpr double kGreyShare = 0.10;   // of all triangles
+constexpr double kThingShare = 0.07;  // of all triangles: things, if there are enough of them
 constexpr double kFinestThing = 0.06, kCoarsestThing = 6.0;  // metres
 constexpr int kLeastSide = 8, kLargestSide = 4096;           // texels of a picture
 
@@ -65,7 +65,7 @@ Detail chooseDetail(const UnitDesign& design, double triangles) {
         if (facade.role == FacadeRole::front) area += facade.areaSquareMetres();
     }
     const double spacing = std::sqrt(2.0 * area / (0.6 * triangles));
-    return spacing > 0.5 ? Detail::flat : spacing > 0.27 ? Detail::coarse : Detail::all;
+    return spacing > 0.5 ? Detail::flat : spacing > 0.17 ? Detail::coarse : Detail::all;
 }
 
 // Backs and bare walls go without photographs until the untextured share is met.
@@ -88,7 +88,8 @@ UnitBudget fitUnit(const Unit& unit, const UnitDesign& design, double triangles,
     UnitCounts counts{unit, design, {}};
     UnitBudget budget;
     budget.detail = chooseDetail(design, triangles);
-    for (const Facade& facade : design.facades) counts.grids.push_back(featureGrid(facade, detailOf(facade, budget)));
+    for (const Facade& facade : design.facades)
+        counts.grids.push_back(featureGrid(facade, detailOf(facade, budget)));
 
     std::uint64_t coarsest = 0;
     while (budget.things < design.things.size()) {
@@ -98,7 +99,8 @@ UnitBudget fitUnit(const Unit& unit, const UnitDesign& design, double triangles,
     }
     const auto finest = static_cast<double>(counts.things(budget.things, kFinestThing));
     const double forThings = std::min(kThingShare * triangles, finest);
-    budget.spacing = smallestWithin(0.005, 50.0, triangles - forThings, [&](double s) { return counts.sheets(s); });
+    budget.spacing =
+        smallestWithin(0.005, 50.0, triangles - forThings, [&](double s) { return counts.sheets(s); });
     const auto sheets = static_cast<double>(counts.sheets(budget.spacing));
     const double left = std::min(triangles - sheets, 1.2 * kGreyShare * triangles);
     budget.thingSpacing = smallestWithin(kFinestThing, kCoarsestThing, left,
@@ -107,8 +109,8 @@ UnitBudget fitUnit(const Unit& unit, const UnitDesign& design, double triangles,
     budget.triangles = counts.sheets(budget.spacing) + budget.greyTriangles;
     chooseGrey(counts, kGreyShare * triangles, budget, Random::forPart(unit.seed, 3));
 
-    budget.texelsPerMetre = -smallestWithin(-4000.0, -0.01, texels,
-                                            [&](double d) { return counts.texels(budget.grey, -d); });
+    budget.texelsPerMetre =
+        -smallestWithin(-4000.0, -0.01, texels, [&](double d) { return counts.texels(budget.grey, -d); });
     budget.texels = counts.texels(budget.grey, budget.texelsPerMetre);
     return budget;
 }
@@ -117,8 +119,11 @@ double worthSquareMetres(const Unit& unit) {
     double worth = 0.12 * unit.region.width() * unit.region.depth();
     for (const Building& b : unit.buildings) {
         for (int wall = 0; wall < 4; ++wall) {
-            const double length = wall == kSouth || wall == kNorth ? b.footprint.width() : b.footprint.depth();
-            const double share = b.walls[wall] == WallUse::street ? 1.0 : b.walls[wall] == WallUse::back ? 0.35 : 0.0;
+            const double length =
+                wall == kSouth || wall == kNorth ? b.footprint.width() : b.footprint.depth();
+            const double share = b.walls[wall] == WallUse::street ? 1.0
+                                 : b.walls[wall] == WallUse::back ? 0.35
+                                                                  : 0.0;
             worth += share * length * b.top();
         }
     }
@@ -145,7 +150,8 @@ std::vector<double> sharesOf(const CityPlan& plan, std::uint64_t part) {
 
 PictureSize pictureSize(double width, double height, double texelsPerMetre) {
     const auto side = [&](double metres) {
-        return static_cast<int>(std::clamp(metres * texelsPerMetre + 0.5, 1.0 * kLeastSide, 1.0 * kLargestSide));
+        return static_cast<int>(
+            std::clamp(metres * texelsPerMetre + 0.5, 1.0 * kLeastSide, 1.0 * kLargestSide));
     };
     return {side(width), side(height)};
 }
@@ -172,7 +178,9 @@ Detail detailOf(const Facade& facade, const UnitBudget& budget) {
 }
 
 PictureSize facadePictureSize(const Facade& facade, const FacadeGrid& grid, double texelsPerMetre) {
-    const double factor = facade.role == FacadeRole::front ? 1.0 : facade.role == FacadeRole::back ? 0.6 : 0.45;
+    const double factor = facade.role == FacadeRole::front  ? 1.0
+                          : facade.role == FacadeRole::back ? 0.6
+                                                            : 0.45;
     return pictureSize(grid.textureWidth(), grid.textureHeight(), texelsPerMetre * factor);
 }
 
@@ -187,7 +195,8 @@ std::vector<UnitBudget> shareBudget(const CityPlan& plan, const CityOptions& opt
     for (std::size_t i = 0; i < plan.units.size(); ++i) {
         const double triangles = static_cast<double>(options.triangles) * triangleShares[i];
         const double texels = static_cast<double>(options.texels) * texelShares[i];
-        const double wantedTriangles = triangles + std::clamp(triangleCarry, -0.2 * triangles, 0.2 * triangles);
+        const double wantedTriangles =
+            triangles + std::clamp(triangleCarry, -0.2 * triangles, 0.2 * triangles);
         const double wantedTexels = texels + std::clamp(texelCarry, -0.2 * texels, 0.2 * texels);
         const UnitDesign design = designUnit(plan, plan.units[i]);
         budgets.push_back(fitUnit(plan.units[i], design, wantedTriangles, wantedTexels));

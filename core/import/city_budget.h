@@ -1,6 +1,6 @@
-// Shares the city's triangles and texels among its units and finds, for each unit, the sample spacing and the texel
-// density that use its share up. Counts are exact: what is planned here is what is made later.
-// Comes from CityPlan; goes to city_block, which makes one unit.
+// Shares the city's triangles and texels among its units and finds, for each unit, the sample spacing and the
+// texel density that use its share up. Counts are exact: what is planned here is what is made later. Comes
+// from CityPlan; goes to city_block, which makes one unit.
 #pragma once
 
 #include <span>
@@ -21,11 +21,11 @@ struct UnitDesign {
 [[nodiscard]] UnitDesign designUnit(const CityPlan& plan, const Unit& unit);
 
 struct UnitBudget {
-    double spacing = 1.0;       // of fronts, metres; the others are multiples of it
+    double spacing = 1.0;  // of fronts, metres; the others are multiples of it
     double thingSpacing = 1.0;
-    std::size_t things = 0;     // how many of the design's
+    std::size_t things = 0;  // how many of the design's
     Detail detail = Detail::flat;
-    std::vector<bool> grey;     // a facade of which there are no photographs
+    std::vector<bool> grey;  // a facade of which there are no photographs
     double texelsPerMetre = 1.0;
     std::uint64_t triangles = 0, greyTriangles = 0, texels = 0;  // as they will come out
 };
@@ -47,7 +47,8 @@ struct PictureSize {
         return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     }
 };
-[[nodiscard]] PictureSize facadePictureSize(const Facade& facade, const FacadeGrid& grid, double texelsPerMetre);
+[[nodiscard]] PictureSize facadePictureSize(const Facade& facade, const FacadeGrid& grid,
+                                            double texelsPerMetre);
 [[nodiscard]] PictureSize aerialPictureSize(const Unit& unit, double texelsPerMetre);
 
 }  // namespace fb::city

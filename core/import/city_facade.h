@@ -1,6 +1,7 @@
-// A facade: one continuous sheet of wall along one or more walls of a building, with everything that stands out of it
-// or is set back. One design serves the mesh and the texture, so that a painted window lies in the recess of the mesh.
-// Comes from a Building; goes to lines (city_facade_lines), mesh (city_facade_mesh) and texture (city_paint_facade).
+// A facade: one continuous sheet of wall along one or more walls of a building, with everything that stands
+// out of it or is set back. One design serves the mesh and the texture, so that a painted window lies in the
+// recess of the mesh. Comes from a Building; goes to lines (city_facade_lines), mesh (city_facade_mesh) and
+// texture (city_paint_facade).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,8 +12,8 @@
 
 namespace fb::city {
 
-// Places on a facade: s runs to the right as seen from outside, y up. Designs are in whole decimetres, s from the
-// start of its segment, so that two edges are never closer than that.
+// Places on a facade: s runs to the right as seen from outside, y up. Designs are in whole decimetres, s from
+// the start of its segment, so that two edges are never closer than that.
 struct DesignRect {
     int s0 = 0, s1 = 0, y0 = 0, y1 = 0;
 };
@@ -29,7 +30,17 @@ struct Opening {
 };
 
 // In the order in which they cover each other.
-enum class ReliefKind : std::uint8_t { plinth, pilaster, ledge, cornice, bayWindow, sill, sign, balcony, awning };
+enum class ReliefKind : std::uint8_t {
+    plinth,
+    pilaster,
+    ledge,
+    cornice,
+    bayWindow,
+    sill,
+    sign,
+    balcony,
+    awning
+};
 
 struct Relief {
     int segment = 0;  // kAllRound: along the whole facade, s0 and s1 unused
@@ -48,10 +59,9 @@ struct Facade {
     std::vector<glm::dvec2> line;     // corners in plan (x, z), one more than segments
     std::vector<double> starts;       // s of each corner
     std::vector<glm::dvec2> normals;  // outward, one a segment
-    bool closed = false;              // the last corner is the first
-    bool flaps = false;               // turns a little around both ends, so that no gap opens beside a neighbour
+    bool flaps = false;  // turns a little around both ends, so that no gap opens beside a neighbour
     double bottom = -0.2, top = 0.0;
-    double wrapDown = 0.0;            // the sheet goes over the parapet and down to here
+    double wrapDown = 0.0;  // the sheet goes over the parapet and down to here
     std::vector<Opening> openings;
     std::vector<Relief> reliefs;
     BuildingStyle style;
@@ -62,7 +72,8 @@ struct Facade {
     [[nodiscard]] double areaSquareMetres() const { return length() * (top - bottom); }
 };
 
-// All sheets of a building: fronts, backs, bare walls.
+// All sheets of a building: fronts, backs, bare walls. At least one wall must be of another use than the
+// next.
 [[nodiscard]] std::vector<Facade> designFacades(const Building& building);
 
 // How much of the design the mesh shows: flat walls, openings and large reliefs, or everything.
@@ -70,10 +81,10 @@ enum class Detail : std::uint8_t { flat, coarse, all };
 
 // A grid line of the sheet. Features have a pair of lines 5 cm apart around each edge.
 struct GridLine {
-    double at = 0.0;       // s or y in metres
-    double inset = 0.0;    // metres behind the wall plane: flaps and the way over the parapet
+    double at = 0.0;         // s or y in metres
+    double inset = 0.0;      // metres behind the wall plane: flaps and the way over the parapet
     double textureAt = 0.0;  // metres along the texture: steep steps get more than their projection
-    int corner = -1;       // index into Facade::line where the column stands on a corner
+    int corner = -1;         // index into Facade::line where the column stands on a corner
 };
 struct FacadeGrid {
     std::vector<GridLine> columns, rows;
@@ -92,7 +103,7 @@ inline constexpr double kHalfStep = 0.025;  // metres from a feature's edge to t
 [[nodiscard]] FacadeGrid fillGrid(const FacadeGrid& features, double spacing, std::uint32_t seed);
 
 // Adds the sheet as a scan of the facade: textured with `material` (uvs over the whole texture), or grey.
-void addFacade(const Facade& facade, const FacadeGrid& grid, Detail detail, std::uint32_t material, bool textured,
-               MeshBuilder& mesh);
+void addFacade(const Facade& facade, const FacadeGrid& grid, Detail detail, std::uint32_t material,
+               bool textured, MeshBuilder& mesh);
 
 }  // namespace fb::city

@@ -1,4 +1,5 @@
-// The grid lines of a facade sheet: where features need them, and filled in between to the spacing of the scan.
+// The grid lines of a facade sheet: where features need them, and filled in between to the spacing of the
+// scan.
 #include <algorithm>
 #include <cmath>
 
@@ -9,10 +10,10 @@
 namespace fb::city {
 namespace {
 
-constexpr double kFlapMetres = 0.45;      // how far a sheet turns around its end
-constexpr double kFlapSlant = 0.04;       // and how far it leaves the neighbour's plane meanwhile
-constexpr double kParapetMetres = 0.3;    // thickness
-constexpr double kStepTexture = 0.12;     // metres of texture for the two lines around an edge
+constexpr double kFlapMetres = 0.45;    // how far a sheet turns around its end
+constexpr double kFlapSlant = 0.02;     // and how far it leaves the neighbour's plane meanwhile
+constexpr double kParapetMetres = 0.3;  // thickness
+constexpr double kStepTexture = 0.12;   // metres of texture for the two lines around an edge
 
 bool shown(const Relief& relief, Detail detail) {
     return detail == Detail::all || (detail == Detail::coarse && !relief.fine);
@@ -53,7 +54,9 @@ void measureTexture(std::vector<GridLine>& lines) {
     }
 }
 
-bool isFilled(const GridLine& a, const GridLine& b) { return a.inset == b.inset; }
+bool isFilled(const GridLine& a, const GridLine& b) {
+    return a.inset == b.inset;
+}
 
 std::uint64_t partsOf(const GridLine& a, const GridLine& b, double spacing) {
     if (!isFilled(a, b)) return 1;
@@ -75,7 +78,8 @@ std::vector<GridLine> fillLines(const std::vector<GridLine>& lines, double spaci
         for (int k = 1; k < parts; ++k) {
             const auto number = static_cast<std::int32_t>(filled.size());
             const double t = (k + 0.15 * signedUnit(latticeHash(seed, number, 7))) / parts;
-            filled.push_back({a.at + (b.at - a.at) * t, a.inset, a.textureAt + (b.textureAt - a.textureAt) * t, -1});
+            filled.push_back(
+                {a.at + (b.at - a.at) * t, a.inset, a.textureAt + (b.textureAt - a.textureAt) * t, -1});
         }
         filled.push_back(b);
     }

@@ -1,4 +1,5 @@
-// A facade sheet as a scanner sees it: a grid of samples whose depths follow the design, with the noise of a scan.
+// A facade sheet as a scanner sees it: a grid of samples whose depths follow the design, with the noise of a
+// scan.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +15,9 @@ struct LineRange {
 };
 
 LineRange linesBetween(const std::vector<GridLine>& lines, double low, double high) {
-    const auto inside = [&](const GridLine& line) { return line.inset == 0.0 && line.at > low && line.at < high; };
+    const auto inside = [&](const GridLine& line) {
+        return line.inset == 0.0 && line.at > low && line.at < high;
+    };
     const auto begin = std::find_if(lines.begin(), lines.end(), inside);
     const auto end = std::find_if_not(begin, lines.end(), inside);
     return {static_cast<std::size_t>(begin - lines.begin()), static_cast<std::size_t>(end - lines.begin())};
@@ -34,7 +37,7 @@ struct DepthShaper {
     DepthGrid depths;
 
     void relief(const Relief& r) {
-        LineRange columns{0, grid.columns.size()};
+        LineRange columns = linesBetween(grid.columns, -1.0, facade.length() + 1.0);
         const LineRange rows = linesBetween(grid.rows, r.at.y0 / 10.0, r.at.y1 / 10.0);
         if (r.segment != kAllRound) {
             const double start = facade.starts[r.segment];
@@ -56,8 +59,9 @@ struct DepthShaper {
         for (std::size_t row = rows.first; row < rows.last; ++row) {
             for (std::size_t c = columns.first; c < columns.last; ++c) {
                 // Panes return fewer and worse samples than walls.
-                const float pane = 0.012f * signedUnit(latticeHash(facade.seed + 5, static_cast<std::int32_t>(c),
-                                                                   static_cast<std::int32_t>(row)));
+                const float pane =
+                    0.012f * signedUnit(latticeHash(facade.seed + 5, static_cast<std::int32_t>(c),
+                                                    static_cast<std::int32_t>(row)));
                 depths.at(row, c) -= static_cast<float>(o.depth) - pane;
             }
         }
@@ -88,10 +92,8 @@ struct ColumnPlace {
 ColumnPlace placeColumn(const Facade& f, const GridLine& line) {
     const int segments = f.segments();
     if (line.corner >= 0) {
-        const bool end = line.corner == 0 || line.corner == segments;
-        const glm::dvec2 after = f.normals[line.corner == segments ? (f.closed ? 0 : segments - 1) : line.corner];
-        const glm::dvec2 before =
-            end ? f.normals[f.closed ? segments - 1 : (line.corner == 0 ? 0 : segments - 1)] : f.normals[line.corner - 1];
+        const glm::dvec2 before = f.normals[std::max(0, line.corner - 1)];
+        const glm::dvec2 after = f.normals[std::min(segments - 1, line.corner)];
         return {f.line[line.corner], (before + after) / (1.0 + glm::dot(before, after))};
     }
     int segment = 0;
@@ -103,8 +105,8 @@ ColumnPlace placeColumn(const Facade& f, const GridLine& line) {
 
 }  // namespace
 
-void addFacade(const Facade& facade, const FacadeGrid& grid, Detail detail, std::uint32_t material, bool textured,
-               MeshBuilder& mesh) {
+void addFacade(const Facade& facade, const FacadeGrid& grid, Detail detail, std::uint32_t material,
+               bool textured, MeshBuilder& mesh) {
     DepthGrid depths = shapeDepths(facade, grid, detail);
     std::vector<ColumnPlace> places;
     std::vector<float> drift;  // of the scanner from one vertical scan to the next
@@ -121,21 +123,18 @@ void addFacade(const Facade& facade, const FacadeGrid& grid, Detail detail, std:
         for (std::size_t c = 0; c <= last; ++c) {
             const GridLine& columnLine = grid.columns[c];
             double depth = depths.at(r, c);
-            const bool end = !facade.closed && (columnLine.corner == 0 || columnLine.corner == facade.segments());
+            const bool end = columnLine.corner == 0 || columnLine.corner == facade.segments();
             if (columnLine.inset == 0.0 && !end) {
-                // The last column of a closed sheet repeats the first.
-                const std::size_t sample = facade.closed && c == last ? 0 : c;
-                const double s = grid.columns[sample].at;
-                depth += 0.007 * smoothNoise(facade.seed + 7, s, rowLine.at, 1.6) + drift[sample] +
-                         0.004 * signedUnit(latticeHash(facade.seed + 8, static_cast<std::int32_t>(sample),
+                depth += 0.007 * smoothNoise(facade.seed + 7, columnLine.at, rowLine.at, 1.6) + drift[c] +
+                         0.004 * signedUnit(latticeHash(facade.seed + 8, static_cast<std::int32_t>(c),
                                                         static_cast<std::int32_t>(r)));
             }
-            const glm::dvec2 plan = places[c].base + places[c].out * (depth - columnLine.inset - rowLine.inset);
+            const glm::dvec2 plan =
+                places[c].base + places[c].out * (depth - columnLine.inset - rowLine.inset);
             const auto u = static_cast<float>(columnLine.textureAt / grid.textureWidth());
             const glm::vec2 uv = textured ? glm::vec2(u, v) : glm::vec2(0.0f);
             row[c] = mesh.addVertex({plan.x, rowLine.at, plan.y}, uv);
         }
-        if (facade.closed) mesh.addSeam(row.front(), row[last]);
         for (std::size_t c = 0; r > 0 && c < last; ++c) {
             mesh.addQuad(below[c], below[c + 1], row[c + 1], row[c], material);
         }

@@ -8,12 +8,14 @@
 namespace fb::city {
 namespace {
 
-constexpr double kHalfKerb = 0.04;      // the kerb's step is this wide to both sides of its line
-constexpr double kUnderWall = 0.5;      // ground reaches this far under a building
-constexpr double kUnderChamfer = 3.4;   // and this far where its corner is cut off
-constexpr double kSetback = 0.4;        // the deepest
+constexpr double kHalfKerb = 0.04;     // the kerb's step is this wide to both sides of its line
+constexpr double kUnderWall = 0.5;     // ground reaches this far under a building
+constexpr double kUnderChamfer = 3.4;  // and this far where its corner is cut off
+constexpr double kSetback = 0.4;       // the deepest
 
-double parts(double from, double to, double spacing) { return std::max(1.0, std::ceil((to - from) / spacing)); }
+double parts(double from, double to, double spacing) {
+    return std::max(1.0, std::ceil((to - from) / spacing));
+}
 
 void sortLines(std::vector<double>& lines, double low, double high) {
     std::erase_if(lines, [&](double at) { return at < low + 0.02 || at > high - 0.02; });
@@ -27,7 +29,8 @@ void sortLines(std::vector<double>& lines, double low, double high) {
     lines.erase(std::unique(lines.begin(), lines.end(), near), lines.end());
 }
 
-// The part of a building's footprint that needs no ground. The street sides of all buildings in a row share a line.
+// The part of a building's footprint that needs no ground. The street sides of all buildings in a row share a
+// line.
 Rect coveredBy(const Building& b) {
     Rect rect = b.footprint;
     const auto inset = [&](int wall) {
@@ -43,7 +46,8 @@ Rect coveredBy(const Building& b) {
 }
 
 bool isCovered(const GroundSheet& sheet, double x, double z) {
-    return std::any_of(sheet.covered.begin(), sheet.covered.end(), [&](const Rect& r) { return r.contains(x, z); });
+    return std::any_of(sheet.covered.begin(), sheet.covered.end(),
+                       [&](const Rect& r) { return r.contains(x, z); });
 }
 
 }  // namespace
@@ -70,7 +74,8 @@ GroundSheet groundFeatures(const CityPlan& plan, const Unit& unit) {
     GroundSheet sheet;
     const auto addKerbs = [](std::vector<double>& lines, const std::vector<Street>& streets) {
         for (const Street& street : streets) {
-            for (const double kerb : {street.centre - street.halfCarriage, street.centre + street.halfCarriage}) {
+            for (const double kerb :
+                 {street.centre - street.halfCarriage, street.centre + street.halfCarriage}) {
                 lines.push_back(kerb - kHalfKerb);
                 lines.push_back(kerb + kHalfKerb);
             }
@@ -82,8 +87,10 @@ GroundSheet groundFeatures(const CityPlan& plan, const Unit& unit) {
         Rect rect = coveredBy(building);
         // One line for every setback.
         constexpr double kStreetInset = kSetback + kUnderWall;
-        if (building.walls[kNorth] == WallUse::street) rect.z0 = std::max(rect.z0, unit.built.z0 + kStreetInset);
-        if (building.walls[kSouth] == WallUse::street) rect.z1 = std::min(rect.z1, unit.built.z1 - kStreetInset);
+        if (building.walls[kNorth] == WallUse::street)
+            rect.z0 = std::max(rect.z0, unit.built.z0 + kStreetInset);
+        if (building.walls[kSouth] == WallUse::street)
+            rect.z1 = std::min(rect.z1, unit.built.z1 - kStreetInset);
         if (rect.x1 - rect.x0 < 0.5 || rect.z1 - rect.z0 < 0.5) continue;
         sheet.covered.push_back(rect);
         sheet.x.insert(sheet.x.end(), {rect.x0, rect.x1});
@@ -122,8 +129,8 @@ void addGround(const CityPlan& plan, const Unit& unit, const GroundSheet& featur
         double y = plan.isCarriageway(x, z) ? 0.0 : kPavementHeight;
         // Flat along the unit's border, where the neighbour has other samples.
         if (i > 0 && j > 0 && i + 1 < sheet.x.size() && j + 1 < sheet.z.size()) {
-            y += 0.012 * smoothNoise(seed, x, z, 3.1) + 0.004 * signedUnit(latticeHash(seed + 1, static_cast<int>(i),
-                                                                                     static_cast<int>(j)));
+            y += 0.012 * smoothNoise(seed, x, z, 3.1) +
+                 0.004 * signedUnit(latticeHash(seed + 1, static_cast<int>(i), static_cast<int>(j)));
         }
         const glm::vec2 uv((x - region.x0) / region.width(), (z - region.z0) / region.depth());
         vertex = mesh.addVertex({x, y, z}, uv);

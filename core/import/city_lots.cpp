@@ -8,7 +8,8 @@
 namespace fb::city {
 namespace {
 
-// A building may stand back from the street by up to 0.4 m; a neighbour's wall counts as covered all the same.
+// A building may stand back from the street by up to 0.4 m; its neighbour's facade turns around the corner
+// that far.
 constexpr double kSetbackTolerance = 0.45;
 
 std::vector<int> splitIntoLots(Random& random, int lengthDecimetres) {
@@ -26,7 +27,7 @@ std::vector<int> splitIntoLots(Random& random, int lengthDecimetres) {
 
 int drawFloors(Random& random, double centrality) {
     const double u = random.uniform() * (0.72 + 0.34 * centrality);
-    constexpr std::array kBelow{0.10, 0.33, 0.55, 0.70, 0.79, 0.86};
+    constexpr std::array kBelow{0.12, 0.37, 0.61, 0.76, 0.84, 0.90};
     for (std::size_t i = 0; i < kBelow.size(); ++i) {
         if (u < kBelow[i]) return static_cast<int>(i) + 2;
     }
@@ -45,7 +46,8 @@ Building makeBuilding(Random& random, const RowPlan& row, const LotPlace& lot) {
     b.floors = drawFloors(random, row.centrality);
     if (lot.x1 - lot.x0 < 8.0) b.floors = std::min(b.floors, 5);
     b.shop = random.uniform() < (corner ? 0.85 : 0.65);
-    b.groundFloorDecimetres = b.shop ? 39 + static_cast<int>(random.index(8)) : 32 + static_cast<int>(random.index(4));
+    b.groundFloorDecimetres =
+        b.shop ? 39 + static_cast<int>(random.index(8)) : 32 + static_cast<int>(random.index(4));
     b.floorDecimetres = 30 + static_cast<int>(random.index(6));
     b.parapetDecimetres = 4 + static_cast<int>(random.index(8));
     const double setback = corner ? 0.0 : static_cast<double>(random.index(5)) / 10.0;
@@ -71,27 +73,31 @@ Building makeBuilding(Random& random, const RowPlan& row, const LotPlace& lot) {
     return b;
 }
 
-// Whether `wall` of `a` stands against `b`, and then how much of it.
-enum class Contact { none, part, all };
+// How a wall stands against another building: metres along it that the other covers, and that are left open.
+struct Contact {
+    double covered = 0.0, open = 0.0;
+};
 
 Contact contactOf(const Building& a, int wall, const Building& b) {
     const Rect &p = a.footprint, &q = b.footprint;
     const bool alongX = wall == kSouth || wall == kNorth;
     const double mine = wall == kSouth ? p.z1 : wall == kNorth ? p.z0 : wall == kEast ? p.x1 : p.x0;
     const double theirs = wall == kSouth ? q.z0 : wall == kNorth ? q.z1 : wall == kEast ? q.x0 : q.x1;
-    if (std::abs(mine - theirs) > 0.05) return Contact::none;
     const double p0 = alongX ? p.x0 : p.z0, p1 = alongX ? p.x1 : p.z1;
     const double q0 = alongX ? q.x0 : q.z0, q1 = alongX ? q.x1 : q.z1;
-    if (std::min(p1, q1) - std::max(p0, q0) < 0.05) return Contact::none;
-    return q0 <= p0 + kSetbackTolerance && q1 >= p1 - kSetbackTolerance ? Contact::all : Contact::part;
+    if (std::abs(mine - theirs) > 0.05) return {0.0, p1 - p0};
+    return {std::max(0.0, std::min(p1, q1) - std::max(p0, q0)),
+            std::max(0.0, q0 - p0) + std::max(0.0, p1 - q1)};
 }
 
 // `first` breaks the tie between two of the same height: exactly one of them has the wall between them.
 void seeWall(Building& a, int wall, const Building& b, bool first) {
     const Contact contact = contactOf(a, wall, b);
-    if (contact == Contact::none) return;
-    if (contact == Contact::part) {
-        if (a.walls[wall] == WallUse::back) return;
+    if (contact.covered < 0.05) return;
+    const bool besideStreet = wall == kEast || wall == kWest;
+    if (contact.open > (besideStreet ? kSetbackTolerance : 0.02)) {
+        // Windows in a back wall look over a lower or narrower building behind; a sliver of wall has none.
+        if (a.walls[wall] == WallUse::back && contact.open > kSetbackTolerance) return;
         a.walls[wall] = WallUse::party;
         a.wallFrom[wall] = 0.0;
         return;
@@ -130,14 +136,15 @@ void findSeenWalls(Row& north, Row& south) {
         const std::vector<Building> as = row.buildings;  // as they were, so that the order does not matter
         for (std::size_t i = 0; i < as.size(); ++i) {
             Building& b = row.buildings[i];
-            if (b.walls[kWest] == WallUse::party) b.walls[kWest] = WallUse::back;  // unless a neighbour is found
+            if (b.walls[kWest] == WallUse::party)
+                b.walls[kWest] = WallUse::back;  // unless a neighbour is found
             if (b.walls[kEast] == WallUse::party) b.walls[kEast] = WallUse::back;
             if (i > 0) {
-                if (contactOf(b, kWest, as[i - 1]) != Contact::none) b.walls[kWest] = WallUse::party;
+                if (contactOf(b, kWest, as[i - 1]).covered > 0.05) b.walls[kWest] = WallUse::party;
                 seeWall(b, kWest, as[i - 1], false);
             }
             if (i + 1 < as.size()) {
-                if (contactOf(b, kEast, as[i + 1]) != Contact::none) b.walls[kEast] = WallUse::party;
+                if (contactOf(b, kEast, as[i + 1]).covered > 0.05) b.walls[kEast] = WallUse::party;
                 seeWall(b, kEast, as[i + 1], true);
             }
             const int rear = first ? kSouth : kNorth;

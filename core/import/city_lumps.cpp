@@ -10,14 +10,16 @@ namespace {
 
 glm::ivec3 divisionsOf(const Lump& lump, double spacing) {
     const int least = lump.shape == LumpShape::box ? 1 : 2;
-    const auto along = [&](double size) { return std::clamp(static_cast<int>(size / spacing + 0.5), least, 400); };
+    const auto along = [&](double size) {
+        return std::clamp(static_cast<int>(size / spacing + 0.5), least, 400);
+    };
     return {along(lump.size.x), along(lump.size.y), along(lump.size.z)};
 }
 
 // Height of a car's outline over its length t in [0, 1]: hood, windscreen, roof, rear.
 double carOutline(double t) {
-    constexpr std::array<glm::dvec2, 7> kPoints{{{0.0, 0.42}, {0.06, 0.56}, {0.28, 0.64}, {0.42, 0.98},
-                                                 {0.72, 1.0}, {0.9, 0.66}, {1.0, 0.52}}};
+    constexpr std::array<glm::dvec2, 7> kPoints{
+        {{0.0, 0.42}, {0.06, 0.56}, {0.28, 0.64}, {0.42, 0.98}, {0.72, 1.0}, {0.9, 0.66}, {1.0, 0.52}}};
     for (std::size_t i = 1; i < kPoints.size(); ++i) {
         if (t > kPoints[i].x) continue;
         const double w = (t - kPoints[i - 1].x) / (kPoints[i].x - kPoints[i - 1].x);
@@ -40,7 +42,8 @@ glm::dvec3 shapePoint(LumpShape shape, const glm::dvec3& p, bool alongX) {
         const double y = p.y * carOutline(along);
         // The cabin is narrower than the body, and both ends are rounded.
         const double nearEnd = std::min(along, 1.0 - along);
-        const double narrow = (1.0 - 0.24 * std::max(0.0, y - 0.55) / 0.45) * (nearEnd < 0.1 ? 0.86 + 1.4 * nearEnd : 1.0);
+        const double narrow =
+            (1.0 - 0.24 * std::max(0.0, y - 0.55) / 0.45) * (nearEnd < 0.1 ? 0.86 + 1.4 * nearEnd : 1.0);
         const double side = across * narrow;
         return alongX ? glm::dvec3(p.x, y, side) : glm::dvec3(side, y, p.z);
     }
@@ -84,19 +87,25 @@ void addThing(const Thing& thing, double spacing, std::uint32_t material, MeshBu
         };
         for (int i = 0; i < n.x; ++i) {
             for (int j = 0; j < n.y; ++j) {
-                quad(vertexAt(i, j, n.z), vertexAt(i + 1, j, n.z), vertexAt(i + 1, j + 1, n.z), vertexAt(i, j + 1, n.z));
-                quad(vertexAt(i + 1, j, 0), vertexAt(i, j, 0), vertexAt(i, j + 1, 0), vertexAt(i + 1, j + 1, 0));
+                quad(vertexAt(i, j, n.z), vertexAt(i + 1, j, n.z), vertexAt(i + 1, j + 1, n.z),
+                     vertexAt(i, j + 1, n.z));
+                quad(vertexAt(i + 1, j, 0), vertexAt(i, j, 0), vertexAt(i, j + 1, 0),
+                     vertexAt(i + 1, j + 1, 0));
             }
             for (int k = 0; k < n.z; ++k) {
-                quad(vertexAt(i, n.y, k + 1), vertexAt(i + 1, n.y, k + 1), vertexAt(i + 1, n.y, k), vertexAt(i, n.y, k));
+                quad(vertexAt(i, n.y, k + 1), vertexAt(i + 1, n.y, k + 1), vertexAt(i + 1, n.y, k),
+                     vertexAt(i, n.y, k));
                 if (!lump.underside) continue;
-                quad(vertexAt(i, 0, k), vertexAt(i + 1, 0, k), vertexAt(i + 1, 0, k + 1), vertexAt(i, 0, k + 1));
+                quad(vertexAt(i, 0, k), vertexAt(i + 1, 0, k), vertexAt(i + 1, 0, k + 1),
+                     vertexAt(i, 0, k + 1));
             }
         }
         for (int k = 0; k < n.z; ++k) {
             for (int j = 0; j < n.y; ++j) {
-                quad(vertexAt(n.x, j, k + 1), vertexAt(n.x, j, k), vertexAt(n.x, j + 1, k), vertexAt(n.x, j + 1, k + 1));
-                quad(vertexAt(0, j, k), vertexAt(0, j, k + 1), vertexAt(0, j + 1, k + 1), vertexAt(0, j + 1, k));
+                quad(vertexAt(n.x, j, k + 1), vertexAt(n.x, j, k), vertexAt(n.x, j + 1, k),
+                     vertexAt(n.x, j + 1, k + 1));
+                quad(vertexAt(0, j, k), vertexAt(0, j, k + 1), vertexAt(0, j + 1, k + 1),
+                     vertexAt(0, j + 1, k));
             }
         }
     }

@@ -1,5 +1,5 @@
-// Things that stand about and were scanned without photographs: cars, trees, lamp posts, machinery on roofs. Each is a
-// few lumps, coarse and noisy; they make most of the city's untextured triangles.
+// Things that stand about and were scanned without photographs: cars, trees, lamp posts, machinery on roofs.
+// Each is a few lumps, coarse and noisy; they make most of the city's untextured triangles.
 #pragma once
 
 #include <vector>

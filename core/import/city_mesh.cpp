@@ -1,6 +1,7 @@
 #include "import/city_mesh.h"
 
 #include <cmath>
+#include <utility>
 
 namespace fb::city {
 
@@ -33,7 +34,6 @@ SourceMesh MeshBuilder::finish() {
         sums[t.y] += area;
         sums[t.z] += area;
     }
-    for (const auto& [a, b] : seams_) sums[a] = sums[b] = sums[a] + sums[b];
     mesh_.normals.reserve(sums.size());
     for (const glm::dvec3& sum : sums) {
         const double length = std::sqrt(glm::dot(sum, sum));

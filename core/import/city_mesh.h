@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "import/source_scene.h"
@@ -22,8 +21,6 @@ class MeshBuilder {
     }
     // A cell of a grid, counter-clockwise as seen from outside, cut along its shorter diagonal.
     void addQuad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, std::uint32_t material);
-    // Two vertices at one position, on both sides of a texture seam: they get the same normal.
-    void addSeam(std::uint32_t a, std::uint32_t b) { seams_.emplace_back(a, b); }
     void reserve(std::uint64_t triangles);
 
     // The mesh with area-weighted normals.
@@ -31,7 +28,6 @@ class MeshBuilder {
 
   private:
     SourceMesh mesh_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> seams_;
 };
 
 }  // namespace fb::city

@@ -7,7 +7,9 @@
 namespace fb::city {
 namespace {
 
-double smoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
+double smoothStep(double t) {
+    return t * t * (3.0 - 2.0 * t);
+}
 
 }  // namespace
 
@@ -68,7 +70,8 @@ void NoiseOctave::addRow(double y, float amplitude, std::span<float> out) {
         filled_ = true;
     }
     const auto w = static_cast<float>(smoothStep(at - cell));
-    for (std::size_t i = 0; i < line_.size(); ++i) line_[i] = amplitude * (lower_[i] + (upper_[i] - lower_[i]) * w);
+    for (std::size_t i = 0; i < line_.size(); ++i)
+        line_[i] = amplitude * (lower_[i] + (upper_[i] - lower_[i]) * w);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const float a = line_[cell_[i]], b = line_[cell_[i] + 1];
         out[i] += a + (b - a) * weight_[i];

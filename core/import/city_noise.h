@@ -1,5 +1,6 @@
 // Value noise on integer lattices: the irregularity of every surface and texture of the procedural city.
-// Only integer hashes and + - * on floating point, so that the same seed gives the same bits on every machine.
+// Only integer hashes and + - * on floating point, so that the same seed gives the same bits on every
+// machine.
 #pragma once
 
 #include <cstddef>
@@ -30,13 +31,16 @@ namespace fb::city {
 }
 
 // In [0, 1], from the upper 24 bits.
-[[nodiscard]] inline float unit(std::uint32_t hash) { return static_cast<float>(hash >> 8) * 0x1p-24f; }
+[[nodiscard]] inline float unit(std::uint32_t hash) {
+    return static_cast<float>(hash >> 8) * 0x1p-24f;
+}
 
 // Smooth noise in [-1, 1] at one point; features are `period` wide.
 [[nodiscard]] double smoothNoise(std::uint32_t seed, double x, double y, double period);
 
-// One octave of smooth noise over a picture, row by row: the columns' places are given once, then rows come in any
-// order (cheapest when neighbours follow each other). Values of lattice points are hashed once a lattice row.
+// One octave of smooth noise over a picture, row by row: the columns' places are given once, then rows come
+// in any order (cheapest when neighbours follow each other). Values of lattice points are hashed once a
+// lattice row.
 class NoiseOctave {
   public:
     NoiseOctave(std::span<const float> columns, double period, std::uint32_t seed);

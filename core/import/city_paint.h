@@ -1,5 +1,5 @@
-// Paints the textures of the procedural city: one picture a facade and one picture from above for ground and roofs.
-// Row by row, each row as runs of one material, so that the work per texel is a few multiplications.
+// Paints the textures of the procedural city: one picture a facade and one picture from above for ground and
+// roofs. Row by row, each row as runs of one material, so that the work per texel is a few multiplications.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@ namespace fb::city {
 // `features`: the grid that the mesh was filled from; it ties texels to the wall.
 [[nodiscard]] Image paintFacade(const Facade& facade, const FacadeGrid& features, PictureSize size);
 // `things`: those that will stand there, for their shadows.
-[[nodiscard]] Image paintAerial(const CityPlan& plan, const Unit& unit, std::span<const Thing> things, PictureSize size);
+[[nodiscard]] Image paintAerial(const CityPlan& plan, const Unit& unit, std::span<const Thing> things,
+                                PictureSize size);
 
 // Texels [begin, end) of a row.
 struct Run {
@@ -29,19 +30,19 @@ struct Run {
 
 // One row of a picture while it is painted.
 struct PaintRow {
-    double at = 0.0;               // y on a facade, z on the ground; metres, at the texels' centres
-    double texel = 0.05;           // metres
-    std::span<const float> places; // s or x of each column
-    std::span<const float> shade;  // around 1: blotches, grain, dirt of the surface at each column
-    std::span<const float> wave;   // around 0, in [-1, 1]: smooth noise of about 0.4 m
+    double at = 0.0;                // y on a facade, z on the ground; metres, at the texels' centres
+    double texel = 0.05;            // metres
+    std::span<const float> places;  // s or x of each column
+    std::span<const float> shade;   // around 1: blotches, grain, dirt of the surface at each column
+    std::span<const float> wave;    // around 0, in [-1, 1]: smooth noise of about 0.4 m
     std::uint8_t* pixels = nullptr;
 
     // The columns with places in [low, high).
     [[nodiscard]] Run between(double low, double high) const;
     void put(int column, const Colour& colour, float shade) const;
-    void fill(const Run& run, const Colour& colour) const;              // times shade
-    void fillPlain(const Run& run, const Colour& colour) const;         // as it is
-    void blend(const Run& run, const Colour& colour, float share) const; // over what is there, times shade
+    void fill(const Run& run, const Colour& colour) const;                // times shade
+    void fillPlain(const Run& run, const Colour& colour) const;           // as it is
+    void blend(const Run& run, const Colour& colour, float share) const;  // over what is there, times shade
     void darken(const Run& run, float factor) const;
     void multiply(int column, float factor) const;
 };
@@ -76,8 +77,8 @@ class Masonry {
 // Share of the texel around `at` that joints of `width` around multiples of `period` cover.
 [[nodiscard]] float jointCoverAt(double at, double period, double width, double texel);
 
-// Block letters of 3 by 5 cells. Fills those columns of the row that belong to `text`, whose upper left corner is at
-// (left, top) with letters of 5 cells' height.
+// Block letters of 3 by 5 cells. Fills those columns of the row that belong to `text`, whose upper left
+// corner is at (left, top) with letters of 5 cells' height.
 void paintText(const PaintRow& row, std::string_view text, double left, double top, double cell,
                const Colour& colour, float share);
 [[nodiscard]] double textWidth(std::string_view text, double cell);
@@ -92,9 +93,10 @@ void paintOpening(const Facade& facade, const Opening& opening, const OpeningRun
 // Reliefs: those of the wall before the openings, the others over them.
 void paintRelief(const Facade& facade, const Relief& relief, const Run& run, const PaintRow& row);
 
-// Streets with their markings, pavements, yards, car parks on one row of the ground; `cracks` is smooth noise.
-void paintGroundRow(const CityPlan& plan, const Unit& unit, const Masonry& slabs, std::span<const float> cracks,
-                    const PaintRow& row);
+// Streets with their markings, pavements, yards, car parks on one row of the ground; `cracks` is smooth
+// noise.
+void paintGroundRow(const CityPlan& plan, const Unit& unit, const Masonry& slabs,
+                    std::span<const float> cracks, const PaintRow& row);
 // The part of a roof on one row, seen from above. `places` of the row are x.
 void paintRoofRow(const Building& building, const BuildingStyle& style, const Run& run, const PaintRow& row);
 // The columns of the row that lie on a building's footprint, its cut-off corners left out.

@@ -1,4 +1,5 @@
-// The picture of a unit from above, with the shadows that buildings and things throw on the ground and on lower roofs.
+// The picture of a unit from above, with the shadows that buildings and things throw on the ground and on
+// lower roofs.
 #include <algorithm>
 #include <cmath>
 
@@ -18,10 +19,12 @@ struct Caster {
 // Buildings whose shadow may fall into the unit: of its own city block and the blocks around it.
 std::vector<Caster> castersAround(const CityPlan& plan, const Unit& unit) {
     std::vector<Caster> casters;
-    const auto columns = static_cast<std::int64_t>(plan.columns()), rows = static_cast<std::int64_t>(plan.rows());
+    const auto columns = static_cast<std::int64_t>(plan.columns()),
+               rows = static_cast<std::int64_t>(plan.rows());
     const std::int64_t column = unit.cell % columns, line = unit.cell / columns;
     for (std::int64_t j = std::max<std::int64_t>(0, line - 1); j <= std::min(rows - 1, line + 1); ++j) {
-        for (std::int64_t i = std::max<std::int64_t>(0, column - 1); i <= std::min(columns - 1, column + 1); ++i) {
+        for (std::int64_t i = std::max<std::int64_t>(0, column - 1); i <= std::min(columns - 1, column + 1);
+             ++i) {
             const auto cell = static_cast<std::size_t>(j * columns + i);
             for (std::uint32_t k = plan.firstUnitOfCell[cell]; k < plan.firstUnitOfCell[cell + 1]; ++k) {
                 for (const Building& b : plan.units[k].buildings) {
@@ -75,13 +78,18 @@ class AerialPainter {
         for (int j = 0; j < size_.height; ++j) {
             std::uint8_t* pixels = image.pixels.data() + static_cast<std::size_t>(j) * size_.width * 3;
             paintRow(region.z0 + (j + 0.5) * region.depth() / size_.height, pixels);
-            developRow(light_, seed(6) + static_cast<std::uint32_t>(unit_.seed) + 977u * static_cast<std::uint32_t>(j), pixels);
+            developRow(
+                light_,
+                seed(6) + static_cast<std::uint32_t>(unit_.seed) + 977u * static_cast<std::uint32_t>(j),
+                pixels);
         }
         return image;
     }
 
   private:
-    std::uint32_t seed(std::uint32_t part) const { return mixBits(static_cast<std::uint32_t>(plan_.seed) * 31u + part); }
+    std::uint32_t seed(std::uint32_t part) const {
+        return mixBits(static_cast<std::uint32_t>(plan_.seed) * 31u + part);
+    }
 
     std::vector<float> makeColumns() const {
         std::vector<float> columns;
@@ -120,8 +128,9 @@ class AerialPainter {
             for (const Lump& lump : thing) {
                 const double halfX = lump.size.x / 2.0, halfZ = lump.size.z / 2.0;
                 if (lump.shape != LumpShape::ball) {
-                    setShade(shadowRun({lump.base.x - halfX, lump.base.z - halfZ, lump.base.x + halfX, lump.base.z + halfZ},
-                                       lump.size.y, row));
+                    setShade(shadowRun(
+                        {lump.base.x - halfX, lump.base.z - halfZ, lump.base.x + halfX, lump.base.z + halfZ},
+                        lump.size.y, row));
                     continue;
                 }
                 const double height = lump.base.y + lump.size.y / 2.0;

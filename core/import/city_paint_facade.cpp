@@ -7,7 +7,8 @@
 namespace fb::city {
 namespace {
 
-// The place on the wall of each texel's centre along one axis; around flaps and over the parapet it simply goes on.
+// The place on the wall of each texel's centre along one axis; around flaps and over the parapet it simply
+// goes on.
 std::vector<float> placesOf(const std::vector<GridLine>& lines, int texels) {
     std::size_t first = 0, last = lines.size() - 1;
     while (lines[first].inset > 0.0) ++first;
@@ -30,11 +31,16 @@ std::vector<float> placesOf(const std::vector<GridLine>& lines, int texels) {
 
 std::optional<MasonryFormat> masonryOf(const BuildingStyle& style) {
     switch (style.wall) {
-        case WallKind::brick: return MasonryFormat{0.07, 0.21, 0.012, 0.16f, true};
-        case WallKind::stone: return MasonryFormat{0.38, 0.76, 0.015, 0.07f, true};
-        case WallKind::panel: return MasonryFormat{1.6, 0.1 * style.bay, 0.02, 0.05f, false};
-        case WallKind::siding: return MasonryFormat{0.14, 3.3, 0.02, 0.04f, true};
-        case WallKind::plaster: return std::nullopt;
+        case WallKind::brick:
+            return MasonryFormat{0.07, 0.21, 0.012, 0.16f, true};
+        case WallKind::stone:
+            return MasonryFormat{0.38, 0.76, 0.015, 0.07f, true};
+        case WallKind::panel:
+            return MasonryFormat{1.6, 0.1 * style.bay, 0.02, 0.05f, false};
+        case WallKind::siding:
+            return MasonryFormat{0.14, 3.3, 0.02, 0.04f, true};
+        case WallKind::plaster:
+            return std::nullopt;
     }
     return std::nullopt;
 }
@@ -88,7 +94,8 @@ class FacadePainter {
           wave_(columns_.size()),
           streaks_(columns_.size()) {
         std::reverse(rows_.begin(), rows_.end());  // row 0 of the picture is at the top
-        if (const auto format = masonryOf(facade.style)) masonry_.emplace(*format, columns_, texel_, facade.seed + 23);
+        if (const auto format = masonryOf(facade.style))
+            masonry_.emplace(*format, columns_, texel_, facade.seed + 23);
         NoiseOctave narrow(columns_, 0.11, facade.seed + 24), wide(columns_, 0.7, facade.seed + 25);
         narrow.addRow(0.0, 0.5f, streaks_);
         wide.addRow(0.0, 0.6f, streaks_);
@@ -116,11 +123,13 @@ class FacadePainter {
         PaintRow row;
         row.places = columns_;
         for (const Opening& o : facade_.openings) {
-            const double s0 = facade_.starts[o.segment] + o.at.s0 / 10.0, s1 = facade_.starts[o.segment] + o.at.s1 / 10.0;
-            placed_.push_back({&o,
-                               {row.between(s0 - kHalfStep, s1 + kHalfStep), row.between(s0 + kHalfStep, s1 - kHalfStep)},
-                               o.at.y0 / 10.0 - kHalfStep,
-                               o.at.y1 / 10.0 + kHalfStep});
+            const double s0 = facade_.starts[o.segment] + o.at.s0 / 10.0,
+                         s1 = facade_.starts[o.segment] + o.at.s1 / 10.0;
+            placed_.push_back(
+                {&o,
+                 {row.between(s0 - kHalfStep, s1 + kHalfStep), row.between(s0 + kHalfStep, s1 - kHalfStep)},
+                 o.at.y0 / 10.0 - kHalfStep,
+                 o.at.y1 / 10.0 + kHalfStep});
         }
         std::stable_sort(placed_.begin(), placed_.end(), [](const PlacedOpening& a, const PlacedOpening& b) {
             return a.runs.outer.begin < b.runs.outer.begin;
@@ -176,7 +185,8 @@ class FacadePainter {
             row.fill(run, style.trim.scaled(0.82f));
             return;
         }
-        const bool ground = facade_.role == FacadeRole::front && !facade_.reliefs.empty() && row.at < groundTop();
+        const bool ground =
+            facade_.role == FacadeRole::front && !facade_.reliefs.empty() && row.at < groundTop();
         if (ground && style.groundColour.r != style.wallColour.r) {
             row.fill(run, style.groundColour);
         } else if (masonry_) {
@@ -188,7 +198,8 @@ class FacadePainter {
 
     double groundTop() const {
         for (const PlacedRelief& r : reliefs_) {
-            if (r.relief->kind == ReliefKind::ledge && r.relief->segment == kAllRound) return r.relief->at.y0 / 10.0;
+            if (r.relief->kind == ReliefKind::ledge && r.relief->segment == kAllRound)
+                return r.relief->at.y0 / 10.0;
         }
         return 0.0;
     }
@@ -197,8 +208,8 @@ class FacadePainter {
         if (!facade_.style.quoins || facade_.role != FacadeRole::front) return;
         const auto stone = static_cast<int>(std::floor(row.at / 0.36));
         const double length = (stone & 1) != 0 ? 0.62 : 0.4;
-        const Colour colour = facade_.style.trim.scaled(
-            jointCoverAt(row.at, 0.36, 0.02, texel_) > 0.3f ? 0.72f : 0.94f);
+        const Colour colour =
+            facade_.style.trim.scaled(jointCoverAt(row.at, 0.36, 0.02, texel_) > 0.3f ? 0.72f : 0.94f);
         for (int k = 0; k < facade_.segments(); ++k) {
             row.fill(row.between(facade_.starts[k], facade_.starts[k] + length), colour);
             row.fill(row.between(facade_.starts[k + 1] - length, facade_.starts[k + 1] + 1e-3), colour);
@@ -209,11 +220,13 @@ class FacadePainter {
         if (facade_.role != FacadeRole::party || (facade_.seed & 3u) != 0) return;
         const std::string_view text = signText(facade_.seed >> 4);
         const double cell = std::min(0.34, facade_.length() * 0.7 / textWidth(text, 1.0));
-        const double height = facade_.top - facade_.bottom, left = (facade_.length() - textWidth(text, cell)) / 2.0;
+        const double height = facade_.top - facade_.bottom,
+                     left = (facade_.length() - textWidth(text, cell)) / 2.0;
         if (height < 5.0 * cell + 1.6) return;
         const double top = facade_.top - 1.2;
         if (row.at < top + cell && row.at > top - 6.0 * cell) {
-            row.blend(row.between(left - cell, facade_.length() - left + cell), facade_.style.accent.scaled(0.6f), 0.45f);
+            row.blend(row.between(left - cell, facade_.length() - left + cell),
+                      facade_.style.accent.scaled(0.6f), 0.45f);
         }
         paintText(row, text, left, top, cell, {222, 214, 190}, 0.5f);
     }

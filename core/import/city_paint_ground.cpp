@@ -10,7 +10,9 @@ namespace {
 constexpr Colour kAsphalt{96, 96, 98}, kNewAsphalt{70, 70, 73}, kSlab{158, 153, 144}, kKerb{178, 175, 168};
 constexpr Colour kPaint{214, 212, 204}, kYellow{200, 164, 62};
 
-double phase(double at, double period) { return at / period - std::floor(at / period); }
+double phase(double at, double period) {
+    return at / period - std::floor(at / period);
+}
 
 const Street* streetAt(const std::vector<Street>& streets, double at) {
     for (const Street& street : streets) {
@@ -38,20 +40,23 @@ void paintAsphalt(const PaintRow& row, const Run& run, std::span<const float> cr
     for (std::int32_t cellX = firstX; cellX <= lastX; ++cellX) {
         const std::uint32_t hash = latticeHash(seed, cellX, cellZ);
         if (unit(hash) > 0.3f) continue;
-        const double x = (cellX + 0.5 * unit(mixBits(hash + 1))) * kCell, z = (cellZ + 0.5 * unit(mixBits(hash + 2))) * kCell;
+        const double x = (cellX + 0.5 * unit(mixBits(hash + 1))) * kCell,
+                     z = (cellZ + 0.5 * unit(mixBits(hash + 2))) * kCell;
         const double width = 0.8 + 3.4 * unit(mixBits(hash + 3)), depth = 0.7 + 2.2 * unit(mixBits(hash + 4));
         if (row.at > z && row.at < z + depth) row.fill(row.between(x, x + width).within(run), kNewAsphalt);
     }
-    // Cracks follow the zero line of smooth noise; gravel shows as speckles.
-    const float half = 0.014f, reach = half + static_cast<float>(row.texel) * 0.35f;
-    const float strength = std::min(0.8f, half / reach * 1.6f);
+    // Cracks follow the zero line of smooth noise where the surface is bad; gravel shows as speckles.
+    const float half = 0.010f, reach = half + static_cast<float>(row.texel) * 0.3f;
+    const float strength = std::min(1.0f, half / reach * 2.0f);
     std::uint32_t grain = latticeHash(seed, cellZ, static_cast<std::int32_t>(row.at / row.texel)) | 1u;
     for (int i = run.begin; i < run.end; ++i) {
         grain = grain * 0x915f77f5u + 0x6d2b79f5u;
-        const float speckle = 1.0f + 0.05f * signedUnit(grain);
-        const float distance = std::abs(cracks[i] + 0.12f * row.wave[i]);
-        const float crack = distance < reach ? 1.0f - 0.45f * strength : 1.0f;
-        row.multiply(i, speckle * crack);
+        float tone = 1.0f + 0.05f * signedUnit(grain);
+        if (std::abs(cracks[i] + 0.2f * row.wave[i]) < reach) {
+            const float bad = std::clamp((row.shade[i] - 0.97f) * 9.0f, 0.0f, 1.0f);
+            tone *= 1.0f - 0.4f * strength * bad;
+        }
+        row.multiply(i, tone);
     }
 }
 
@@ -123,7 +128,8 @@ void paintManholes(const CityPlan& plan, const PaintRow& row, std::uint32_t seed
     const auto lastX = static_cast<std::int32_t>(std::floor(row.places.back() / kEvery));
     for (std::int32_t cellX = firstX; cellX <= lastX; ++cellX) {
         const std::uint32_t hash = latticeHash(seed, cellX, cellZ);
-        const double x = (cellX + 0.1 + 0.8 * unit(hash)) * kEvery, z = (cellZ + 0.1 + 0.8 * unit(mixBits(hash))) * kEvery;
+        const double x = (cellX + 0.1 + 0.8 * unit(hash)) * kEvery,
+                     z = (cellZ + 0.1 + 0.8 * unit(mixBits(hash))) * kEvery;
         const double dz = row.at - z;
         if (std::abs(dz) >= kRadius || !plan.isCarriageway(x, z)) continue;
         const double half = std::sqrt(kRadius * kRadius - dz * dz);
@@ -133,33 +139,44 @@ void paintManholes(const CityPlan& plan, const PaintRow& row, std::uint32_t seed
     }
 }
 
-void paintBuiltArea(const Unit& unit, const PaintRow& row, std::span<const float> cracks) {
-    const Rect& built = unit.built;
-    if (row.at < built.z0 || row.at > built.z1) return;
-    const Run run = row.between(built.x0, built.x1);
+void paintCarParks(const Unit& unit, const PaintRow& row, std::span<const float> cracks) {
+    for (const Rect& park : unit.carParks) {
+        if (row.at < park.z0 || row.at > park.z1) continue;
+        paintAsphalt(row, row.between(park.x0, park.x1), cracks, static_cast<std::uint32_t>(unit.seed) + 1);
+        for (double z = park.z0 + 3.5; z < park.z1 - 3.0; z += 7.5) {
+            if (std::abs(row.at - z) > 2.5) continue;
+            for (double x = park.x0 + 0.65; x < park.x1; x += 2.7)
+                row.blend(row.between(x - 0.06, x + 0.06), kPaint, 0.6f);
+        }
+    }
+}
+
+// What lies behind the buildings. Between the building line and a wall set back from it the pavement goes on.
+void paintYards(const Unit& unit, const PaintRow& row, std::span<const float> cracks) {
+    constexpr double kFromStreet = 3.5;
+    Rect yard = unit.built;
+    if (yard.z0 > unit.region.z0 + 0.1) yard.z0 += kFromStreet;
+    if (yard.z1 < unit.region.z1 - 0.1) yard.z1 -= kFromStreet;
+    if (!unit.alley && yard.x0 > unit.region.x0 + 0.1) yard.x0 += kFromStreet;
+    if (!unit.alley && yard.x1 < unit.region.x1 - 0.1) yard.x1 -= kFromStreet;
+    if (row.at < yard.z0 || row.at > yard.z1) return;
+    const Run run = row.between(yard.x0, yard.x1);
     if (unit.alley) {
         paintAsphalt(row, run, cracks, static_cast<std::uint32_t>(unit.seed));
     } else {
         // Grass, with trodden earth where the noise is low.
         for (int i = run.begin; i < run.end; ++i) {
             const float earth = std::clamp(cracks[i] * 2.5f + 0.5f, 0.0f, 1.0f);
-            row.put(i, Colour{92, 104, 66}.mixed({134, 118, 94}, earth), row.shade[i] * (1.0f + 0.1f * row.wave[i]));
-        }
-    }
-    for (const Rect& park : unit.carParks) {
-        if (row.at < park.z0 || row.at > park.z1) continue;
-        paintAsphalt(row, row.between(park.x0, park.x1), cracks, static_cast<std::uint32_t>(unit.seed) + 1);
-        for (double z = park.z0 + 3.5; z < park.z1 - 3.0; z += 7.5) {
-            if (std::abs(row.at - z) > 2.5) continue;
-            for (double x = park.x0 + 0.65; x < park.x1; x += 2.7) row.blend(row.between(x - 0.06, x + 0.06), kPaint, 0.6f);
+            row.put(i, Colour{92, 104, 66}.mixed({134, 118, 94}, earth),
+                    row.shade[i] * (1.0f + 0.1f * row.wave[i]));
         }
     }
 }
 
 }  // namespace
 
-void paintGroundRow(const CityPlan& plan, const Unit& unit, const Masonry& slabs, std::span<const float> cracks,
-                    const PaintRow& row) {
+void paintGroundRow(const CityPlan& plan, const Unit& unit, const Masonry& slabs,
+                    std::span<const float> cracks, const PaintRow& row) {
     const auto seed = static_cast<std::uint32_t>(plan.seed);
     const Run all{0, static_cast<int>(row.places.size())};
     if (const Street* street = streetAt(plan.alongX, row.at)) {
@@ -179,7 +196,8 @@ void paintGroundRow(const CityPlan& plan, const Unit& unit, const Masonry& slabs
             row.darken(row.between(s.centre + kerb - 0.3, s.centre + kerb), 0.84f);
         }
         markAlongZ(plan, row);
-        paintBuiltArea(unit, row, cracks);
+        paintYards(unit, row, cracks);
+        paintCarParks(unit, row, cracks);
     }
     paintManholes(plan, row, seed + 41);
 }

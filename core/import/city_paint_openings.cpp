@@ -18,9 +18,7 @@ struct Pane {
     Run run;
     double left, width, y, height;
 
-    [[nodiscard]] std::uint32_t part(int number) const {
-        return latticeHash(opening.look, number, 1);
-    }
+    [[nodiscard]] std::uint32_t part(int number) const { return latticeHash(opening.look, number, 1); }
     [[nodiscard]] float chance(int number) const { return unit(part(number)); }
     [[nodiscard]] Run at(double from, double to) const {
         return row.between(left + from, left + to).within(run);
@@ -28,7 +26,8 @@ struct Pane {
     // A bar across the row's way: at least a texel wide, weaker where it is narrower.
     void bar(double middle, double thickness, const Colour& colour) const {
         const double half = std::max(thickness, row.texel) / 2.0;
-        row.blend(at(middle - half, middle + half), colour, static_cast<float>(std::min(1.0, thickness / row.texel)));
+        row.blend(at(middle - half, middle + half), colour,
+                  static_cast<float>(std::min(1.0, thickness / row.texel)));
     }
 };
 
@@ -37,8 +36,10 @@ void paintGlass(const Pane& pane, const Run& run, const Colour& inside) {
     const float v = static_cast<float>(pane.y / pane.height);
     const float mirror = 0.12f + 0.55f * pane.chance(1) * pane.chance(2);
     const float outline = 0.1f + 0.9f * pane.chance(3);
-    const Colour opposite{88.0f + 50.0f * pane.chance(4), 84.0f + 38.0f * pane.chance(4), 78.0f + 30.0f * pane.chance(5)};
-    const Colour low = inside.mixed(opposite, mirror * 0.6f), high = inside.mixed(kSky, mirror * (0.7f + 0.3f * v));
+    const Colour opposite{88.0f + 50.0f * pane.chance(4), 84.0f + 38.0f * pane.chance(4),
+                          78.0f + 30.0f * pane.chance(5)};
+    const Colour low = inside.mixed(opposite, mirror * 0.6f),
+                 high = inside.mixed(kSky, mirror * (0.7f + 0.3f * v));
     // The lintel's shadow falls on the upper part.
     const float shadow = std::min(1.0f, 0.6f + 0.4f * static_cast<float>((pane.height - pane.y) / 0.3));
     for (int i = run.begin; i < run.end; ++i) {
@@ -70,7 +71,8 @@ void paintWindowGlass(const Pane& pane) {
         // Curtains on both sides, their folds a wave of 0.12 m.
         const double open = 0.14 + 0.2 * pane.chance(11);
         const Colour cloth = Colour{196, 190, 178}.scaled(0.55f + 0.4f * pane.chance(12));
-        for (const Run& side : {pane.at(0.0, open * pane.width), pane.at((1.0 - open) * pane.width, pane.width)}) {
+        for (const Run& side :
+             {pane.at(0.0, open * pane.width), pane.at((1.0 - open) * pane.width, pane.width)}) {
             for (int i = side.begin; i < side.end; ++i) {
                 const double s = pane.row.places[i] / 0.12;
                 const double fold = std::abs(s - std::floor(s) - 0.5) * 2.0;
@@ -96,7 +98,14 @@ void paintFrame(const Pane& pane, int across, int down, const Colour& frame) {
     for (int k = 1; k < across; ++k) pane.bar(pane.width * k / across, kBarMetres, frame);
 }
 
-void paintShop(const Pane& pane) {
+void paintShop(const Pane& whole) {
+    constexpr double kRiser = 0.4;  // the wall under the shop window
+    if (whole.y < kRiser) {
+        whole.row.fill(whole.run, whole.facade.style.door.scaled(whole.y > kRiser - 0.06 ? 0.9f : 0.6f));
+        return;
+    }
+    const Pane pane{whole.facade, whole.opening, whole.row,        whole.run,
+                    whole.left,   whole.width,   whole.y - kRiser, whole.height - kRiser};
     const float bright = 0.35f + 0.5f * pane.chance(6);
     paintGlass(pane, pane.run, Colour{70, 64, 56}.scaled(bright));
     // Goods on shelves, dim behind the glass; the upper third is empty.
@@ -110,10 +119,12 @@ void paintShop(const Pane& pane) {
         for (int k = 0; k < boxes; ++k) {
             const std::uint32_t hash = latticeHash(pane.opening.look, k, level + 64);
             if (unit(hash) < 0.25f || onShelf > 0.35 + 0.5 * unit(mixBits(hash))) continue;
-            const Colour goods{70.0f + static_cast<float>(hash & 127), 66.0f + static_cast<float>((hash >> 7) & 127),
+            const Colour goods{70.0f + static_cast<float>(hash & 127),
+                               66.0f + static_cast<float>((hash >> 7) & 127),
                                62.0f + static_cast<float>((hash >> 14) & 127)};
             const double from = pitch * (k + 0.1);
-            pane.row.blend(pane.at(from, from + pitch * (0.5 + 0.4 * unit(hash ^ 77u))), goods.mixed(mood, 0.6f), 0.34f);
+            pane.row.blend(pane.at(from, from + pitch * (0.5 + 0.4 * unit(hash ^ 77u))),
+                           goods.mixed(mood, 0.6f), 0.34f);
         }
         if (onShelf > 0.92) pane.row.blend(pane.run, {30, 28, 26}, 0.3f);
     }
@@ -126,8 +137,8 @@ void paintShop(const Pane& pane) {
         if (pane.y > low && pane.y < low + 1.0) {
             const Colour paper = pane.facade.style.accent.mixed({240, 236, 220}, pane.chance(18));
             pane.row.fillPlain(pane.at(from, from + 0.7), paper);
-            paintText(pane.row, signText(pane.part(19)), pane.left + from + 0.08, pane.opening.at.y0 / 10.0 + low + 0.85,
-                      0.022, {40, 36, 34}, 0.9f);
+            paintText(pane.row, signText(pane.part(19)), pane.left + from + 0.08,
+                      pane.row.at - pane.y + low + 0.85, 0.022, {40, 36, 34}, 0.9f);
         }
     }
     const int across = std::max(1, static_cast<int>(pane.width / 1.5));
@@ -140,8 +151,8 @@ void paintDoor(const Pane& pane) {
     const bool shopDoor = pane.opening.at.y1 > 26;
     const double leafTop = std::min(kLeafMetres, pane.height);
     if (pane.y >= leafTop) {  // the light above the door
-        const Pane above{pane.facade, pane.opening, pane.row, pane.run, pane.left, pane.width, pane.y - leafTop,
-                         pane.height - leafTop};
+        const Pane above{pane.facade, pane.opening, pane.row,         pane.run,
+                         pane.left,   pane.width,   pane.y - leafTop, pane.height - leafTop};
         paintGlass(above, above.run, {40, 42, 44});
         paintFrame(above, 1, 1, style.frame);
         return;
@@ -175,7 +186,8 @@ void paintGarage(const Pane& pane) {
 
 }  // namespace
 
-void paintOpening(const Facade& facade, const Opening& opening, const OpeningRuns& runs, const PaintRow& row) {
+void paintOpening(const Facade& facade, const Opening& opening, const OpeningRuns& runs,
+                  const PaintRow& row) {
     const double low = opening.at.y0 / 10.0 + kHalfStep, high = opening.at.y1 / 10.0 - kHalfStep;
     const Colour surround = opening.painted ? facade.style.trim : facade.style.wallColour;
     const Run &outer = runs.outer, &inner = runs.inner;
@@ -190,16 +202,23 @@ void paintOpening(const Facade& facade, const Opening& opening, const OpeningRun
     row.fill({outer.begin, inner.begin}, surround.scaled(0.62f));
     row.fill({inner.end, outer.end}, surround.scaled(0.85f));
     const double start = facade.starts[opening.segment];
-    const double left = start + opening.at.s0 / 10.0 + kHalfStep, right = start + opening.at.s1 / 10.0 - kHalfStep;
+    const double left = start + opening.at.s0 / 10.0 + kHalfStep,
+                 right = start + opening.at.s1 / 10.0 - kHalfStep;
     const Pane pane{facade, opening, row, inner, left, right - left, row.at - low, high - low};
     switch (opening.kind) {
         case OpeningKind::window:
             paintWindowGlass(pane);
             paintFrame(pane, facade.style.panesAcross, facade.style.panesDown, facade.style.frame);
             break;
-        case OpeningKind::shop: paintShop(pane); break;
-        case OpeningKind::door: paintDoor(pane); break;
-        case OpeningKind::garage: paintGarage(pane); break;
+        case OpeningKind::shop:
+            paintShop(pane);
+            break;
+        case OpeningKind::door:
+            paintDoor(pane);
+            break;
+        case OpeningKind::garage:
+            paintGarage(pane);
+            break;
     }
 }
 

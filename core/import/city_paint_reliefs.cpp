@@ -1,4 +1,5 @@
-// What stands out of the wall: ledges, cornices, pilasters, bay windows, sills; signs, balconies and awnings over it.
+// What stands out of the wall: ledges, cornices, pilasters, bay windows, sills; signs, balconies and awnings
+// over it.
 #include <algorithm>
 #include <cmath>
 
@@ -8,9 +9,12 @@ namespace fb::city {
 namespace {
 
 // Place inside a repeating pattern, 0 to 1.
-double phase(double at, double period) { return at / period - std::floor(at / period); }
+double phase(double at, double period) {
+    return at / period - std::floor(at / period);
+}
 
-void paintCornice(const BuildingStyle& style, const Relief& relief, const Run& run, const PaintRow& row, float v) {
+void paintCornice(const BuildingStyle& style, const Relief& relief, const Run& run, const PaintRow& row,
+                  float v) {
     const float tone = v > 0.85f ? 1.1f : v < 0.12f ? 0.7f : 1.0f;
     row.fill(run, style.trim.scaled(tone));
     // Dentils under the projecting part.
@@ -21,14 +25,16 @@ void paintCornice(const BuildingStyle& style, const Relief& relief, const Run& r
     }
 }
 
-void paintPilaster(const BuildingStyle& style, const Run& run, const PaintRow& row, const Relief& relief, double start) {
+void paintPilaster(const BuildingStyle& style, const Run& run, const PaintRow& row, const Relief& relief,
+                   double start) {
     row.fill(run, style.trim.scaled(0.95f));
     const double left = start + relief.at.s0 / 10.0, right = start + relief.at.s1 / 10.0;
     row.fill(row.between(left - kHalfStep, left + kHalfStep).within(run), style.trim.scaled(0.72f));
     row.fill(row.between(right - kHalfStep, right + kHalfStep).within(run), style.trim.scaled(0.6f));
 }
 
-void paintBayWindow(const BuildingStyle& style, const Relief& relief, const Run& run, const PaintRow& row, double start) {
+void paintBayWindow(const BuildingStyle& style, const Relief& relief, const Run& run, const PaintRow& row,
+                    double start) {
     const double board = phase(row.at, 0.9);
     row.fill(run, style.trim.scaled(board < 0.05 ? 0.78f : 0.97f));
     const double left = start + relief.at.s0 / 10.0, right = start + relief.at.s1 / 10.0;
@@ -64,12 +70,18 @@ void paintBalcony(const BuildingStyle& style, const Run& run, const PaintRow& ro
     }
 }
 
-void paintAwning(const BuildingStyle& style, const Relief& relief, const Run& run, const PaintRow& row, float v) {
+void paintAwning(const BuildingStyle& style, const Relief& relief, const Run& run, const PaintRow& row,
+                 float v) {
+    if (row.at < relief.at.y0 / 10.0 + kHalfStep) {  // the underside
+        row.fill(run, style.accent.scaled(0.28f));
+        return;
+    }
     const bool striped = (relief.look & 1u) != 0;
     const float tone = v < 0.2f ? 0.72f : 0.9f + 0.2f * v;  // the valance hangs in the shade
     for (int i = run.begin; i < run.end; ++i) {
         const bool light = striped && phase(row.places[i], 0.5) < 0.5;
-        row.put(i, light ? Colour{226, 220, 206} : style.accent, tone * (0.96f + 0.06f * row.wave[i]) * row.shade[i]);
+        row.put(i, light ? Colour{226, 220, 206} : style.accent,
+                tone * (0.96f + 0.06f * row.wave[i]) * row.shade[i]);
     }
 }
 
@@ -87,15 +99,33 @@ void paintRelief(const Facade& facade, const Relief& relief, const Run& run, con
     const auto v = static_cast<float>((row.at - low) / (high - low));
     const double start = relief.segment == kAllRound ? 0.0 : facade.starts[relief.segment];
     switch (relief.kind) {
-        case ReliefKind::plinth: row.fill(run, style.trim.scaled(0.68f)); break;
-        case ReliefKind::pilaster: paintPilaster(style, run, row, relief, start); break;
-        case ReliefKind::ledge: row.fill(run, style.trim.scaled(v > 0.75f ? 1.08f : v < 0.2f ? 0.75f : 0.98f)); break;
-        case ReliefKind::cornice: paintCornice(style, relief, run, row, v); break;
-        case ReliefKind::bayWindow: paintBayWindow(style, relief, run, row, start); break;
-        case ReliefKind::sill: row.fill(run, style.trim); break;
-        case ReliefKind::sign: paintSign(facade, relief, run, row); break;
-        case ReliefKind::balcony: paintBalcony(style, run, row, v); break;
-        case ReliefKind::awning: paintAwning(style, relief, run, row, v); break;
+        case ReliefKind::plinth:
+            row.fill(run, style.trim.scaled(0.68f));
+            break;
+        case ReliefKind::pilaster:
+            paintPilaster(style, run, row, relief, start);
+            break;
+        case ReliefKind::ledge:
+            row.fill(run, style.trim.scaled(v > 0.75f ? 1.08f : v < 0.2f ? 0.75f : 0.98f));
+            break;
+        case ReliefKind::cornice:
+            paintCornice(style, relief, run, row, v);
+            break;
+        case ReliefKind::bayWindow:
+            paintBayWindow(style, relief, run, row, start);
+            break;
+        case ReliefKind::sill:
+            row.fill(run, style.trim);
+            break;
+        case ReliefKind::sign:
+            paintSign(facade, relief, run, row);
+            break;
+        case ReliefKind::balcony:
+            paintBalcony(style, run, row, v);
+            break;
+        case ReliefKind::awning:
+            paintAwning(style, relief, run, row, v);
+            break;
     }
 }
 

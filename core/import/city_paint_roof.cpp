@@ -7,7 +7,9 @@
 namespace fb::city {
 namespace {
 
-double phase(double at, double period) { return at / period - std::floor(at / period); }
+double phase(double at, double period) {
+    return at / period - std::floor(at / period);
+}
 
 // Brightness of a slope towards each wall, by the sun of the facades.
 constexpr std::array<float, 4> kSlopeLight{1.12f, 0.86f, 0.72f, 1.0f};
@@ -34,7 +36,8 @@ void paintSlopes(const Building& b, const BuildingStyle& style, const Run& run, 
         if (std::abs(dx - dz) < 0.12 || steep - d < 0.12) tone *= 1.15f;  // ridge tiles
         const auto along = static_cast<std::int32_t>((dz < dx ? row.places[i] : row.at) / 0.25);
         const auto rank = static_cast<std::int32_t>(d / course);
-        const float each = 1.0f + 0.09f * signedUnit(latticeHash(static_cast<std::uint32_t>(b.seed), along, rank));
+        const float each =
+            1.0f + 0.09f * signedUnit(latticeHash(static_cast<std::uint32_t>(b.seed), along, rank));
         row.put(i, style.roofColour, tone * each * row.shade[i]);
     }
 }

@@ -15,26 +15,46 @@ std::uint8_t toByte(float value) {
 // Letters that words on signs need; one octal digit a row from the top, its bits from the left.
 constexpr int letterRows(char letter) {
     switch (letter) {
-        case 'A': return 025755;
-        case 'B': return 065656;
-        case 'C': return 034443;
-        case 'D': return 065556;
-        case 'E': return 074647;
-        case 'F': return 074644;
-        case 'G': return 034553;
-        case 'H': return 055755;
-        case 'I': return 072227;
-        case 'K': return 055655;
-        case 'L': return 044447;
-        case 'O': return 025552;
-        case 'P': return 065644;
-        case 'R': return 065655;
-        case 'S': return 034216;
-        case 'T': return 072222;
-        case 'V': return 055552;
-        case 'Y': return 055222;
-        case 'Z': return 071247;
-        default: return 0;
+        case 'A':
+            return 025755;
+        case 'B':
+            return 065656;
+        case 'C':
+            return 034443;
+        case 'D':
+            return 065556;
+        case 'E':
+            return 074647;
+        case 'F':
+            return 074644;
+        case 'G':
+            return 034553;
+        case 'H':
+            return 055755;
+        case 'I':
+            return 072227;
+        case 'K':
+            return 055655;
+        case 'L':
+            return 044447;
+        case 'O':
+            return 025552;
+        case 'P':
+            return 065644;
+        case 'R':
+            return 065655;
+        case 'S':
+            return 034216;
+        case 'T':
+            return 072222;
+        case 'V':
+            return 055552;
+        case 'Y':
+            return 055222;
+        case 'Z':
+            return 071247;
+        default:
+            return 0;
     }
 }
 
@@ -44,7 +64,8 @@ constexpr double kLetterPitch = 4.0;  // cells from letter to letter
 
 Run PaintRow::between(double low, double high) const {
     const auto first = [&](double place) {
-        return static_cast<int>(std::lower_bound(places.begin(), places.end(), static_cast<float>(place)) - places.begin());
+        return static_cast<int>(std::lower_bound(places.begin(), places.end(), static_cast<float>(place)) -
+                                places.begin());
     };
     return {first(low), first(high)};
 }
@@ -87,14 +108,16 @@ void PaintRow::darken(const Run& run, float factor) const {
 float jointCoverAt(double at, double period, double width, double texel) {
     const double k = std::floor(at / period + 0.5);
     const double distance = std::abs(at - k * period);
-    const double covered = std::min(distance + texel / 2.0, width / 2.0) - std::max(distance - texel / 2.0, -width / 2.0);
+    const double covered =
+        std::min(distance + texel / 2.0, width / 2.0) - std::max(distance - texel / 2.0, -width / 2.0);
     return static_cast<float>(std::clamp(covered / texel, 0.0, 1.0));
 }
 
-Masonry::Masonry(const MasonryFormat& format, std::span<const float> columns, double texel, std::uint32_t seed)
+Masonry::Masonry(const MasonryFormat& format, std::span<const float> columns, double texel,
+                 std::uint32_t seed)
     : format_(format),
       texel_(texel),
-      strength_(static_cast<float>(std::clamp(2.0 * (1.0 - texel / format.course), 0.0, 1.0))),
+      strength_(static_cast<float>(std::clamp(2.6 - 3.6 * texel / format.course, 0.0, 1.0))),
       seed_(seed) {
     for (int parity = 0; parity < 2; ++parity) {
         Bond& bond = bonds_[parity];
@@ -148,9 +171,9 @@ double textWidth(std::string_view text, double cell) {
 
 std::string_view signText(std::uint32_t look) {
     constexpr std::array<std::string_view, 24> kWords{
-        "CAFE",    "BOOKS", "SHOES",  "HOTEL",   "TEA",    "PIZZA",   "DELI",    "BAKERY",
-        "GALLERY", "KEYS",  "TOYS",   "COPY",    "CYCLES", "RECORDS", "FISH",    "FLORIST",
-        "BAR",     "GRILL", "SALE",   "CLOTHES", "TRAVEL", "DRAPERY", "SILKS",   "CHEESE"};
+        "CAFE",    "BOOKS", "SHOES", "HOTEL",   "TEA",    "PIZZA",   "DELI",  "BAKERY",
+        "GALLERY", "KEYS",  "TOYS",  "COPY",    "CYCLES", "RECORDS", "FISH",  "FLORIST",
+        "BAR",     "GRILL", "SALE",  "CLOTHES", "TRAVEL", "DRAPERY", "SILKS", "CHEESE"};
     return kWords[look % kWords.size()];
 }
 

@@ -12,8 +12,10 @@ struct GridSize {
     std::uint64_t columns = 1, rows = 1;
 };
 
-// Two units a city block where possible, and a city about as wide as it is deep.
+// Two units a city block in a small city, so that it has streets inside; up to nearly four in a large one
+// (the thesis's has 25 city blocks). About as wide as it is deep.
 GridSize chooseGrid(std::uint64_t units) {
+    const double wanted = 2.0 + 1.7 * std::clamp((static_cast<double>(units) - 20.0) / 80.0, 0.0, 1.0);
     GridSize best;
     double bestCost = 1e300;
     for (std::uint64_t columns = 1; columns <= units; ++columns) {
@@ -21,9 +23,10 @@ GridSize chooseGrid(std::uint64_t units) {
         for (std::uint64_t rows = 1; rows * columns <= units; ++rows) {
             const double perCell = static_cast<double>(units) / static_cast<double>(columns * rows);
             if (perCell > 4.0) continue;
-            const double width = 58.0 * static_cast<double>(columns), depth = 46.0 * static_cast<double>(rows);
+            const double width = 58.0 * static_cast<double>(columns),
+                         depth = 46.0 * static_cast<double>(rows);
             const double aspect = width > depth ? width / depth : depth / width;
-            const double cost = (perCell - 2.0) * (perCell - 2.0) + 0.25 * (aspect - 1.0);
+            const double cost = (perCell - wanted) * (perCell - wanted) + 0.25 * (aspect - 1.0);
             if (cost < bestCost) {
                 bestCost = cost;
                 best = {columns, rows};
@@ -47,7 +50,8 @@ std::vector<Street> layStreets(Random& random, std::uint64_t blocks, int shortes
         streets.push_back({0.0, carriage / 10.0, pavement / 10.0});
         centres.push_back(at);
         at += carriage + pavement;
-        const int block = shortest + static_cast<int>(random.index(static_cast<std::uint64_t>(longest - shortest + 1)));
+        const int block =
+            shortest + static_cast<int>(random.index(static_cast<std::uint64_t>(longest - shortest + 1)));
         if (i < blocks) at += block;
     }
     const int middle = at / 2;
@@ -122,10 +126,16 @@ void fillCell(CityPlan& plan, const Cell& cell, std::uint64_t units, std::uint32
     const bool alley = random.uniform() < 0.4;
     const double middle = std::floor((cell.block.z0 + cell.block.z1) * 5.0) / 10.0;
     const double halfAlley = alley ? 2.2 : 0.0;
-    const RowPlan northPlan{{cell.block.x0, cell.block.z0, cell.block.x1, middle - halfAlley}, false, alley,
-                            cell.centrality, random.bits()};
-    const RowPlan southPlan{{cell.block.x0, middle + halfAlley, cell.block.x1, cell.block.z1}, true, alley,
-                            cell.centrality, random.bits()};
+    const RowPlan northPlan{{cell.block.x0, cell.block.z0, cell.block.x1, middle - halfAlley},
+                            false,
+                            alley,
+                            cell.centrality,
+                            random.bits()};
+    const RowPlan southPlan{{cell.block.x0, middle + halfAlley, cell.block.x1, cell.block.z1},
+                            true,
+                            alley,
+                            cell.centrality,
+                            random.bits()};
     Row north = makeRow(northPlan), south = makeRow(southPlan);
     findSeenWalls(north, south);
     const Rect& all = cell.region;
@@ -165,8 +175,9 @@ CityPlan makePlan(const CityOptions& options) {
     const GridSize grid = chooseGrid(options.blocks);
     Random random = Random::forPart(options.seed, 0);
     // Smaller blocks for fewer triangles, so that windows still get their share of samples.
-    const double perUnit = static_cast<double>(options.triangles) / static_cast<double>(options.blocks);
-    const double scale = std::clamp(std::sqrt(perUnit / 60000.0), 0.62, 1.15);
+    const double perCell =
+        static_cast<double>(options.triangles) / static_cast<double>(grid.columns * grid.rows);
+    const double scale = std::clamp(std::sqrt(perCell / 180000.0), 0.62, 1.2);
     const int length = static_cast<int>(560.0 * scale);
     plan.alongZ = layStreets(random, grid.columns, length * 8 / 10, length * 12 / 10, plan.ground.x1);
     plan.alongX = layStreets(random, grid.rows, 260, 330, plan.ground.z1);
@@ -180,7 +191,8 @@ CityPlan makePlan(const CityOptions& options) {
         const std::uint64_t k = (i + offset) % cells;
         const std::uint64_t units = (k + 1) * options.blocks / cells - k * options.blocks / cells;
         plan.firstUnitOfCell.push_back(static_cast<std::uint32_t>(plan.units.size()));
-        fillCell(plan, cellAt(plan, i % grid.columns, i / grid.columns), units, static_cast<std::uint32_t>(i));
+        fillCell(plan, cellAt(plan, i % grid.columns, i / grid.columns), units,
+                 static_cast<std::uint32_t>(i));
     }
     plan.firstUnitOfCell.push_back(static_cast<std::uint32_t>(plan.units.size()));
     return plan;

@@ -1,6 +1,6 @@
-// The procedural city in plan view: streets, the rows of buildings along them, and which of them make up a unit (the
-// block of the hierarchy: one side of a city block, as in thesis 3.2, or a whole small one).
-// Comes from CityOptions; goes to the facade design and to the ground. x is east, z is south, y is up; metres.
+// The procedural city in plan view: streets, the rows of buildings along them, and which of them make up a
+// unit (the block of the hierarchy: one side of a city block, as in thesis 3.2, or a whole small one). Comes
+// from CityOptions; goes to the facade design and to the ground. x is east, z is south, y is up; metres.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ struct Rect {
     [[nodiscard]] bool contains(double x, double z) const { return x >= x0 && x <= x1 && z >= z0 && z <= z1; }
 };
 
-// A straight street of the grid, along z in CityPlan::alongZ and along x in alongX. Kerbs are halfCarriage from the
-// centre, walls halfWidth.
+// A straight street of the grid, along z in CityPlan::alongZ and along x in alongX. Kerbs are halfCarriage
+// from the centre, walls halfWidth.
 struct Street {
     double centre = 0.0;
     double halfCarriage = 0.0;
@@ -31,8 +31,8 @@ struct Street {
 
 inline constexpr double kPavementHeight = 0.14;
 
-// Walls of a building in this order. Each runs so that a facade's texture goes to the right as seen from outside:
-// south to the east, east to the north, north to the west, west to the south.
+// Walls of a building in this order. Each runs so that a facade's texture goes to the right as seen from
+// outside: south to the east, east to the north, north to the west, west to the south.
 inline constexpr int kSouth = 0, kEast = 1, kNorth = 2, kWest = 3;
 
 enum class WallUse : std::uint8_t {
@@ -48,14 +48,17 @@ struct Building {
     Rect footprint;
     std::array<WallUse, 4> walls{};
     std::array<double, 4> wallFrom{};  // height from which the wall can be seen
-    std::array<double, 4> chamfer{};   // length cut off both walls at the end of each wall; 0 for a sharp corner
+    std::array<double, 4>
+        chamfer{};  // length cut off both walls at the end of each wall; 0 for a sharp corner
     int floors = 1;
     int groundFloorDecimetres = 35, floorDecimetres = 32, parapetDecimetres = 5;
     bool shop = false;
     RoofShape roof = RoofShape::flat;
     std::uint64_t seed = 0;
 
-    [[nodiscard]] double roofY() const { return (groundFloorDecimetres + (floors - 1) * floorDecimetres + 4) / 10.0; }
+    [[nodiscard]] double roofY() const {
+        return (groundFloorDecimetres + (floors - 1) * floorDecimetres + 4) / 10.0;
+    }
     [[nodiscard]] double top() const { return roofY() + parapetDecimetres / 10.0; }  // of the walls
 };
 
@@ -75,9 +78,9 @@ struct Unit {
 struct CityPlan {
     std::vector<Street> alongZ, alongX;  // from west to east, from north to south
     Rect ground;
-    std::vector<Unit> units;             // by cell; cells by rows from the north west
+    std::vector<Unit> units;                     // by cell; cells by rows from the north west
     std::vector<std::uint32_t> firstUnitOfCell;  // one more than there are cells
-    double highestTop = 0.0;             // of all buildings, roofs and what stands on them
+    double highestTop = 0.0;                     // of all buildings, roofs and what stands on them
     std::uint64_t seed = 0;
 
     [[nodiscard]] std::size_t columns() const { return alongZ.size() - 1; }
@@ -88,7 +91,8 @@ struct CityPlan {
 // Options as checked by makeCity.
 [[nodiscard]] CityPlan makePlan(const CityOptions& options);
 
-// One row of lots along x, its street to the south or to the north. Lots at both ends have a street at their side too.
+// One row of lots along x, its street to the south or to the north. Lots at both ends have a street at their
+// side too.
 struct RowPlan {
     Rect area;
     bool facesSouth = true;
@@ -99,7 +103,7 @@ struct RowPlan {
 struct Row {
     std::vector<Building> buildings;  // from west to east
     std::vector<Rect> carParks;
-    std::vector<double> lotEdges;      // x of all lots' borders, both ends included
+    std::vector<double> lotEdges;  // x of all lots' borders, both ends included
 };
 [[nodiscard]] Row makeRow(const RowPlan& plan);
 

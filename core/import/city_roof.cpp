@@ -61,8 +61,8 @@ std::array<double, 2> cutAt(const Building& b, const RoofGrid& grid, double z) {
 
 double heightAt(const Building& b, const RoofGrid& grid, double x, double z) {
     if (b.roof == RoofShape::flat) return b.roofY();
-    const double d = std::max(0.0, std::min({x - grid.x.front(), grid.x.back() - x, z - grid.z.front(),
-                                             grid.z.back() - z}));
+    const double d = std::max(
+        0.0, std::min({x - grid.x.front(), grid.x.back() - x, z - grid.z.front(), grid.z.back() - z}));
     const double eaves = b.top() - 0.03;
     if (b.roof == RoofShape::hip) return eaves + d * 0.55;
     return eaves + (d < kMansardRun ? d * (2.6 / kMansardRun) : 2.6 + (d - kMansardRun) * 0.12);
@@ -75,7 +75,8 @@ std::uint64_t countRoof(const Building& building, double spacing) {
     return 2 * countEvenly(grid.x, spacing) * countEvenly(grid.z, spacing);
 }
 
-void addRoof(const Unit& unit, const Building& building, double spacing, std::uint32_t material, MeshBuilder& mesh) {
+void addRoof(const Unit& unit, const Building& building, double spacing, std::uint32_t material,
+             MeshBuilder& mesh) {
     const RoofGrid features = roofFeatures(building);
     const RoofGrid grid{fillEvenly(features.x, spacing), fillEvenly(features.z, spacing)};
     const Rect& region = unit.region;
@@ -90,8 +91,8 @@ void addRoof(const Unit& unit, const Building& building, double spacing, std::ui
             const double x = grid.x[i] + west * (1.0 - t) - east * t;
             double y = heightAt(building, features, x, z);
             if (i > 0 && j > 0 && i + 1 < grid.x.size() && j + 1 < grid.z.size()) {
-                y += 0.03 * smoothNoise(seed, x, z, 2.7) + 0.008 * signedUnit(latticeHash(seed + 1, static_cast<int>(i),
-                                                                                     static_cast<int>(j)));
+                y += 0.03 * smoothNoise(seed, x, z, 2.7) +
+                     0.008 * signedUnit(latticeHash(seed + 1, static_cast<int>(i), static_cast<int>(j)));
             }
             const glm::dvec2 uv((x - region.x0) / region.width(), (z - region.z0) / region.depth());
             row[i] = mesh.addVertex({x, y, z}, glm::vec2(glm::clamp(uv, 0.0, 1.0)));

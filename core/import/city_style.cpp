@@ -7,7 +7,7 @@
 namespace fb::city {
 namespace {
 
-constexpr std::array kBricks{Colour{142, 78, 60}, Colour{120, 66, 54}, Colour{158, 102, 74},
+constexpr std::array kBricks{Colour{142, 78, 60},   Colour{120, 66, 54}, Colour{158, 102, 74},
                              Colour{172, 140, 104}, Colour{108, 76, 66}, Colour{150, 88, 72}};
 constexpr std::array kPlasters{Colour{214, 203, 178}, Colour{200, 172, 126}, Colour{190, 188, 184},
                                Colour{196, 150, 128}, Colour{176, 186, 170}, Colour{222, 219, 212},
@@ -17,10 +17,11 @@ constexpr std::array kStones{Colour{182, 172, 152}, Colour{166, 162, 156}, Colou
 constexpr std::array kPanels{Colour{168, 166, 160}, Colour{186, 178, 166}, Colour{148, 150, 152}};
 constexpr std::array kSidings{Colour{190, 200, 204}, Colour{150, 170, 160}, Colour{206, 196, 160},
                               Colour{128, 142, 160}, Colour{216, 214, 206}};
-constexpr std::array kFrames{Colour{226, 224, 218}, Colour{70, 58, 48}, Colour{44, 46, 50}, Colour{150, 152, 154},
-                             Colour{58, 84, 70}};
-constexpr std::array kAccents{Colour{150, 34, 36}, Colour{26, 74, 52}, Colour{30, 52, 104}, Colour{196, 148, 40},
-                              Colour{60, 60, 62}, Colour{170, 86, 34}, Colour{96, 40, 84}, Colour{34, 110, 120}};
+constexpr std::array kFrames{Colour{226, 224, 218}, Colour{70, 58, 48}, Colour{44, 46, 50},
+                             Colour{150, 152, 154}, Colour{58, 84, 70}};
+constexpr std::array kAccents{Colour{150, 34, 36},  Colour{26, 74, 52},  Colour{30, 52, 104},
+                              Colour{196, 148, 40}, Colour{60, 60, 62},  Colour{170, 86, 34},
+                              Colour{96, 40, 84},   Colour{34, 110, 120}};
 constexpr std::array kRoofs{Colour{150, 146, 138}, Colour{84, 84, 86}, Colour{196, 196, 192},
                             Colour{150, 84, 58}, Colour{92, 98, 106}};
 
@@ -126,10 +127,11 @@ BuildingStyle makeStyle(const Building& building) {
     if (building.roof == RoofShape::flat) {
         style.roof = static_cast<RoofCover>(random.index(3));
     } else {
-        style.roof = building.roof == RoofShape::hip && random.uniform() < 0.7 ? RoofCover::tiles : RoofCover::slate;
+        style.roof =
+            building.roof == RoofShape::hip && random.uniform() < 0.7 ? RoofCover::tiles : RoofCover::slate;
     }
-    style.roofColour = kRoofs[static_cast<std::size_t>(style.roof)].scaled(
-        static_cast<float>(random.uniform(0.82, 1.12)));
+    style.roofColour =
+        kRoofs[static_cast<std::size_t>(style.roof)].scaled(static_cast<float>(random.uniform(0.82, 1.12)));
     return style;
 }
 

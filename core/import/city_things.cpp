@@ -7,7 +7,9 @@
 namespace fb::city {
 namespace {
 
-std::uint32_t drawSeed(Random& random) { return static_cast<std::uint32_t>(random.bits() >> 32); }
+std::uint32_t drawSeed(Random& random) {
+    return static_cast<std::uint32_t>(random.bits() >> 32);
+}
 
 // A kerb along one side of the unit's built area; `toStreet` points from the pavement to the carriageway.
 struct Kerb {
@@ -27,8 +29,10 @@ std::vector<Kerb> kerbsOf(const CityPlan& plan, const Unit& unit) {
         }
         return 0.0;  // no street here
     };
-    const double south = pavementBeside(plan.alongX, b.z1, 1.0), north = pavementBeside(plan.alongX, b.z0, -1.0);
-    const double east = pavementBeside(plan.alongZ, b.x1, 1.0), west = pavementBeside(plan.alongZ, b.x0, -1.0);
+    const double south = pavementBeside(plan.alongX, b.z1, 1.0),
+                 north = pavementBeside(plan.alongX, b.z0, -1.0);
+    const double east = pavementBeside(plan.alongZ, b.x1, 1.0),
+                 west = pavementBeside(plan.alongZ, b.x0, -1.0);
     if (south > 0.0) kerbs.push_back({{b.x0, 0, b.z1 + south}, {b.x1, 0, b.z1 + south}, {0, 0, 1}});
     if (north > 0.0) kerbs.push_back({{b.x0, 0, b.z0 - north}, {b.x1, 0, b.z0 - north}, {0, 0, -1}});
     if (east > 0.0) kerbs.push_back({{b.x1 + east, 0, b.z0}, {b.x1 + east, 0, b.z1}, {1, 0, 0}});
@@ -50,7 +54,7 @@ Thing makeTree(Random& random, const glm::dvec3& place) {
     Thing tree;
     tree.push_back({LumpShape::box, place, {0.28, trunk + 0.5, 0.26}, 0.02, drawSeed(random)});
     tree.push_back({LumpShape::ball, place + glm::dvec3(0, trunk, 0),
-                    glm::dvec3(crown, crown * random.uniform(1.0, 1.4), crown), 0.38, drawSeed(random), true});
+                    glm::dvec3(crown, crown * random.uniform(1.0, 1.4), crown), 0.3, drawSeed(random), true});
     return tree;
 }
 
@@ -58,7 +62,8 @@ Thing makeLamp(Random& random, const glm::dvec3& place, const glm::dvec3& toStre
     Thing lamp;
     const glm::dvec3 arm = glm::abs(toStreet) * 1.0 + glm::dvec3(0.12, 0.1, 0.12);
     lamp.push_back({LumpShape::box, place, {0.16, 6.2, 0.16}, 0.01, drawSeed(random)});
-    lamp.push_back({LumpShape::box, place + toStreet * 0.5 + glm::dvec3(0, 6.1, 0), arm, 0.01, drawSeed(random), true});
+    lamp.push_back(
+        {LumpShape::box, place + toStreet * 0.5 + glm::dvec3(0, 6.1, 0), arm, 0.01, drawSeed(random), true});
     return lamp;
 }
 
@@ -96,13 +101,15 @@ void furnishRoof(Random& random, const Building& building, std::vector<Thing>& t
     if (building.floors >= 3) {  // the stairs' head or the lift's machine room
         const glm::dvec3 at = place(0.1);
         const double height = random.uniform(1.9, 2.7), width = random.uniform(2.2, 3.4);
-        things.push_back({{LumpShape::box, at, {width, height, random.uniform(2.2, 3.0)}, 0.02, drawSeed(random)}});
+        things.push_back(
+            {{LumpShape::box, at, {width, height, random.uniform(2.2, 3.0)}, 0.02, drawSeed(random)}});
     }
     const auto machines = random.index(4);
     for (std::uint64_t i = 0; i < machines; ++i) {
         const glm::dvec3 at = place(0.1);
         const double width = random.uniform(0.6, 1.8), height = random.uniform(0.5, 1.3);
-        things.push_back({{LumpShape::box, at, {width, height, random.uniform(0.6, 1.6)}, 0.03, drawSeed(random)}});
+        things.push_back(
+            {{LumpShape::box, at, {width, height, random.uniform(0.6, 1.6)}, 0.03, drawSeed(random)}});
     }
 }
 

@@ -1,5 +1,5 @@
-// The walk through the procedural city: around one block in the middle, along the centre lines of its streets, where
-// nothing is parked.
+// The walk through the procedural city: around one block in the middle, along the centre lines of its
+// streets, where nothing is parked.
 #include <algorithm>
 
 #include "import/city_plan.h"
@@ -7,8 +7,8 @@
 namespace fb::city {
 namespace {
 
-constexpr double kTurnMetres = 5.0;   // a corner is cut this far before the crossing
-constexpr double kStepMetres = 8.0;   // a spline through points this close stays on the street
+constexpr double kTurnMetres = 5.0;  // a corner is cut this far before the crossing
+constexpr double kStepMetres = 8.0;  // a spline through points this close stays on the street
 
 // The pair of neighbouring streets around the middle block; inner ones where the city has them.
 std::pair<std::size_t, std::size_t> middlePair(std::size_t blocks) {
@@ -20,7 +20,8 @@ void stepTo(std::vector<glm::dvec3>& points, const glm::dvec3& end) {
     const glm::dvec3 start = points.back();
     const double length = glm::length(end - start);
     const int steps = std::max(1, static_cast<int>(length / kStepMetres));
-    for (int i = 1; i <= steps; ++i) points.push_back(start + (end - start) * (static_cast<double>(i) / steps));
+    for (int i = 1; i <= steps; ++i)
+        points.push_back(start + (end - start) * (static_cast<double>(i) / steps));
 }
 
 }  // namespace
@@ -47,7 +48,8 @@ WalkHint planWalk(const CityPlan& plan) {
         stepTo(walk.points, from);
         for (int k = 1; k <= 4; ++k) {
             const double t = k / 4.0;
-            walk.points.push_back(from * ((1.0 - t) * (1.0 - t)) + corners[i] * (2.0 * t * (1.0 - t)) + to * (t * t));
+            walk.points.push_back(from * ((1.0 - t) * (1.0 - t)) + corners[i] * (2.0 * t * (1.0 - t)) +
+                                  to * (t * t));
         }
     }
     stepTo(walk.points, end);

@@ -6,6 +6,10 @@
 
 namespace fb {
 
+std::uint64_t chunkBytes(const LoadSettings& settings) {
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(settings.chunkKiB * 1024.0));
+}
+
 void ChunkOrder::adopt(std::vector<Wish>& wishes) {
     const NodeId underWay = current_ == kNone ? kNoNode : wishes_[current_].node;
     wishes_.swap(wishes);

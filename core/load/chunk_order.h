@@ -11,6 +11,8 @@
 
 namespace fb {
 
+[[nodiscard]] std::uint64_t chunkBytes(const LoadSettings& settings);  // at least 1
+
 struct StartedLoad {
     NodeId node = kNoNode;
     std::uint64_t filledBytes = 0;

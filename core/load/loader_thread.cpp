@@ -28,7 +28,6 @@ namespace fb {
 namespace {
 
 constexpr int kNicer = 10, kNicest = 19;
-constexpr double kBytesPerKiB = 1024.0;
 
 // On Linux a thread has its own nice value. Where it may not be changed, loading is just less polite.
 void lowerThreadPriority() {
@@ -57,8 +56,11 @@ class ThreadLoader final : public Loader {
     }
 
     void publish(std::span<const Wish> wishes, const LoadSettings& settings) override {
+        if (wishes.empty() && idle_) return;  // do not wake the thread for nothing
+        idle_ = false;
         undelivered_.assign(wishes.begin(), wishes.end());
-        undeliveredChunkBytes_ = static_cast<std::size_t>(settings.chunkKiB * kBytesPerKiB);
+        undeliveredChunkBytes_ = chunkBytes(settings);
+        deliversNothing_ = wishes.empty();
         marks_.mark(wishes);
         hasUndelivered_ = true;
         deliver();
@@ -99,6 +101,7 @@ class ThreadLoader final : public Loader {
         }
         changed_.notify_one();
         hasUndelivered_ = false;
+        idle_ = deliversNothing_;
         for (const FinishedQueue::Entry& entry : dropped_) {
             ++droppedLoads_;
             droppedBytes_ += entry.payloadBytes;
@@ -150,8 +153,7 @@ class ThreadLoader final : public Loader {
                      load.filledBytes);
             return;
         }
-        const std::size_t bytes =
-            std::min(chunkBytes_, static_cast<std::size_t>(payload.sizeBytes - load.filledBytes));
+        const std::uint64_t bytes = std::min(chunkBytes_, payload.sizeBytes - load.filledBytes);
         const std::span<std::uint8_t> into(load.bytes.data() + load.filledBytes, bytes);
         if (Result<void> read = source_->readAt(payload.pack, payload.offset + load.filledBytes, into);
             !read) {
@@ -173,6 +175,7 @@ class ThreadLoader final : public Loader {
     void handOver(NodeId node, Result<std::unique_ptr<DecodedNode>> content, std::uint64_t payloadBytes) {
         const std::uint64_t residentBytes = content ? scene_.hierarchy.residentBytes[node] : 0;
         FinishedQueue::Entry entry{{node, std::move(content)}, residentBytes, payloadBytes};
+        publishCounters();  // before the main thread can see the load
         std::unique_lock lock(mutex_);
         adoptFresh(lock);
         if (!order_.isWished(node)) return;  // cancelled when the wishes were taken over
@@ -193,8 +196,10 @@ class ThreadLoader final : public Loader {
 
     // Main thread.
     std::vector<Wish> undelivered_;
-    std::size_t undeliveredChunkBytes_ = 0;
+    std::uint64_t undeliveredChunkBytes_ = 1;
     bool hasUndelivered_ = false;
+    bool deliversNothing_ = false;  // it is the empty list
+    bool idle_ = true;              // the thread has heard last that nothing is wished for
     WishMarks marks_;
     std::vector<FinishedQueue::Entry> dropped_;
     std::uint64_t droppedLoads_ = 0, droppedBytes_ = 0;
@@ -203,7 +208,7 @@ class ThreadLoader final : public Loader {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::vector<Wish> incoming_;
-    std::size_t incomingChunkBytes_ = 0;
+    std::uint64_t incomingChunkBytes_ = 1;
     bool fresh_ = false;
     bool stopping_ = false;
     FinishedQueue queue_;
@@ -212,7 +217,7 @@ class ThreadLoader final : public Loader {
     // Loader thread.
     ChunkOrder order_;
     std::vector<Wish> adopted_;
-    std::size_t chunkBytes_ = 1;
+    std::uint64_t chunkBytes_ = 1;
 
     std::thread thread_;
 };

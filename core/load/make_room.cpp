@@ -39,7 +39,7 @@ void sumVictims(RoomMaker& room) {
     plan.victimBytes.resize(plan.victims.size() + 1);
     plan.victimBytes[room.victimsTaken] = 0;
     for (std::size_t i = room.victimsTaken; i < plan.victims.size(); ++i) {
-        plan.victimBytes[i + 1] = plan.victimBytes[i] + plan.groups.groups[plan.victims[i]].heldBytes;
+        plan.victimBytes[i + 1] = plan.victimBytes[i] + plan.groups.groups[plan.victims[i]].held.bytes;
     }
 }
 
@@ -48,7 +48,8 @@ void listVictims(RoomMaker& room) {
     victims.clear();
     for (std::uint32_t i = 0; i < room.plan.groups.groups.size(); ++i) {
         const SiblingGroup& group = room.plan.groups.groups[i];
-        if (group.heldBytes > 0 && !group.pinned && group.priority < room.highestLimit) victims.push_back(i);
+        const bool mayGo = !group.pinned && group.priority < room.highestLimit;
+        if (mayGo && group.held.members > 0) victims.push_back(i);
     }
     std::sort(victims.begin(), victims.end(),
               [&room](std::uint32_t a, std::uint32_t b) { return goesFirst(room, a, b); });
@@ -62,7 +63,7 @@ void listUnderWay(RoomMaker& room) {
     underWay.clear();
     for (std::uint32_t i = 0; i < room.plan.groups.groups.size(); ++i) {
         const SiblingGroup& group = room.plan.groups.groups[i];
-        if (group.inFlightBytes > 0 && group.priority < room.highestLimit) underWay.push_back(i);
+        if (group.inFlight.members > 0 && group.priority < room.highestLimit) underWay.push_back(i);
     }
     std::sort(underWay.begin(), underWay.end(), [&room](std::uint32_t a, std::uint32_t b) {
         const SiblingGroup& left = room.plan.groups.groups[a];
@@ -88,7 +89,7 @@ void evictGroup(RoomMaker& room, SiblingGroup& group) {
         }
     });
     withdrawLoads(room, group);
-    group.heldBytes = 0;
+    group.held = {};
     group.evicted = true;
     refuseMemory(room, group);
 }
@@ -98,7 +99,7 @@ void evictGroup(RoomMaker& room, SiblingGroup& group) {
 RoomMaker startMakingRoom(const PlanInput& input, Residency& residency, LoadPlan& plan) {
     RoomMaker room{input, input.hierarchy, residency, plan, budgetBytes(input.load)};
     for (const SiblingGroup& group : plan.groups.groups) {
-        if (group.missingMembers > 0) room.highestLimit = std::max(room.highestLimit, limitFor(room, group));
+        if (group.missing.members > 0) room.highestLimit = std::max(room.highestLimit, limitFor(room, group));
     }
     return room;
 }
@@ -108,7 +109,7 @@ void shrinkToBudget(RoomMaker& room) {
     LoadPlan& plan = room.plan;
     plan.victims.clear();
     for (std::uint32_t i = 0; i < plan.groups.groups.size(); ++i) {
-        if (plan.groups.groups[i].heldBytes > 0) plan.victims.push_back(i);
+        if (plan.groups.groups[i].held.members > 0) plan.victims.push_back(i);
     }
     std::sort(plan.victims.begin(), plan.victims.end(),
               [&room](std::uint32_t a, std::uint32_t b) { return goesFirst(room, a, b); });
@@ -119,8 +120,9 @@ void shrinkToBudget(RoomMaker& room) {
 }
 
 bool canMakeRoom(RoomMaker& room, const SiblingGroup& group) {
+    if (room.residency.totalBytes() > room.budgetBytes) return false;  // the roots alone are too large
     std::uint64_t available = freeBytes(room);
-    if (group.missingBytes <= available) return true;
+    if (group.missing.bytes <= available) return true;
     if (!room.victimsListed) listVictims(room);
     const LoadPlan& plan = room.plan;
     const double limit = limitFor(room, group);
@@ -129,15 +131,15 @@ bool canMakeRoom(RoomMaker& room, const SiblingGroup& group) {
                              [&](std::uint32_t i) { return plan.groups.groups[i].priority < limit; });
     available += plan.victimBytes[static_cast<std::size_t>(end - plan.victims.begin())] -
                  plan.victimBytes[room.victimsTaken];
-    return group.missingBytes <= available;
+    return group.missing.bytes <= available;
 }
 
 void evictFor(RoomMaker& room, const SiblingGroup& group) {
-    while (freeBytes(room) < group.missingBytes) {
+    while (freeBytes(room) < group.missing.bytes) {
         FB_CHECK(room.victimsTaken < room.plan.victims.size());
         SiblingGroup& victim = room.plan.groups.groups[room.plan.victims[room.victimsTaken]];
         FB_CHECK(victim.priority < limitFor(room, group));
-        if (victim.heldBytes > 0) evictGroup(room, victim);  // 0: it stepped back in this frame
+        if (victim.held.members > 0) evictGroup(room, victim);  // 0: it stepped back in this frame
         ++room.victimsTaken;
     }
 }
@@ -145,7 +147,7 @@ void evictFor(RoomMaker& room, const SiblingGroup& group) {
 bool makeWayInWindow(RoomMaker& room, const SiblingGroup& group) {
     const std::uint64_t window = flightWindowBytes(room.budgetBytes);
     const auto fits = [&](std::uint64_t reserved) {
-        return reserved == 0 || reserved + group.missingBytes <= window;
+        return reserved == 0 || reserved + group.missing.bytes <= window;
     };
     std::uint64_t reserved = room.residency.reservedBytes;
     if (fits(reserved)) return true;
@@ -155,24 +157,26 @@ bool makeWayInWindow(RoomMaker& room, const SiblingGroup& group) {
     const double limit = limitFor(room, group);
     std::uint32_t end = room.steppedBack;
     while (!fits(reserved) && end < underWay.size() && groups[underWay[end]].priority < limit) {
-        reserved -= groups[underWay[end++]].inFlightBytes;  // 0 where it was evicted meanwhile
+        reserved -= groups[underWay[end++]].inFlight.bytes;  // 0 where it was evicted meanwhile
     }
     if (!fits(reserved)) return false;
-    for (; room.steppedBack < end; ++room.steppedBack)
+    for (; room.steppedBack < end; ++room.steppedBack) {
         withdrawLoads(room, groups[underWay[room.steppedBack]]);
+    }
     if (room.victimsListed) sumVictims(room);
     return true;
 }
 
 void withdrawLoads(RoomMaker& room, SiblingGroup& group) {
-    if (group.inFlightBytes == 0) return;
+    if (group.inFlight.members == 0) return;
     forEachMember(room, group, [&](NodeId node) {
         if (!room.residency.isInFlight(node)) return;
         room.residency.setUnloaded(room.hierarchy, node);
         ++room.residency.counters.cancelled;
     });
-    group.heldBytes -= group.inFlightBytes;
-    group.inFlightBytes = 0;
+    group.missing.add(group.inFlight);
+    group.held.remove(group.inFlight);
+    group.inFlight = {};
 }
 
 void refuseMemory(RoomMaker& room, const SiblingGroup& group) {

@@ -17,7 +17,6 @@ namespace {
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kNanosecondsPerMillisecond = 1e6;
 constexpr double kNanosecondsPerMicrosecond = 1e3;  // 1 MB/s is 1 byte a microsecond
-constexpr double kBytesPerKiB = 1024.0;
 // The padding between two payloads of a pack costs no seek: a real disk reads whole blocks, and ahead.
 constexpr std::uint64_t kSkippedBytes = 4096;
 
@@ -33,7 +32,7 @@ class ModelLoader final : public Loader {
 
     void publish(std::span<const Wish> wishes, const LoadSettings& settings) override {
         wishes_.assign(wishes.begin(), wishes.end());
-        chunkBytes_ = static_cast<std::uint64_t>(settings.chunkKiB * kBytesPerKiB);
+        chunkBytes_ = chunkBytes(settings);
         marks_.mark(wishes);
         marks_.settle(queue_, wishes_, dropped_);
         for (const FinishedQueue::Entry& entry : dropped_) {

@@ -10,14 +10,18 @@
 namespace fb {
 namespace {
 
-constexpr double kBytesPerMiB = 1048576.0;
 constexpr std::uint64_t kSmallestWindowBytes = std::uint64_t{8} << 20;
 
 // Requests that can no longer come to anything: their group has lost a member for good.
 void withdrawHopelessLoads(RoomMaker& room) {
     for (SiblingGroup& group : room.plan.groups.groups) {
-        if (group.inFlightBytes > 0 && (group.hopeless || group.broken)) withdrawLoads(room, group);
+        if (group.hopeless || group.broken) withdrawLoads(room, group);
     }
+}
+
+// Whether it still hangs from a resident node and was not given up for a more urgent one.
+bool isStillCandidate(const RoomMaker& room, const SiblingGroup& group) {
+    return !group.evicted && room.residency.state[group.parent] == NodeState::resident;
 }
 
 void reserveMissing(RoomMaker& room, const SiblingGroup& group) {
@@ -35,7 +39,7 @@ void listCandidates(RoomMaker& room) {
     for (std::uint32_t i = 0; i < plan.groups.groups.size(); ++i) {
         const SiblingGroup& group = plan.groups.groups[i];
         const bool blocked = group.hopeless || group.broken || group.waiting || group.evicted;
-        if (group.missingMembers > 0 && !blocked) plan.candidates.push_back(i);
+        if (group.missing.members > 0 && !blocked) plan.candidates.push_back(i);
     }
 }
 
@@ -52,7 +56,7 @@ void admitGroups(RoomMaker& room) {
     std::make_heap(plan.candidates.begin(), plan.candidates.end(), lessUrgent);
     while (!plan.candidates.empty()) {
         const SiblingGroup& group = groups[plan.candidates.front()];
-        if (room.residency.state[group.parent] == NodeState::resident) {
+        if (isStillCandidate(room, group)) {
             if (!canMakeRoom(room, group)) {
                 refuseMemory(room, group);
             } else if (!makeWayInWindow(room, group)) {
@@ -67,9 +71,7 @@ void admitGroups(RoomMaker& room) {
     }
     for (const std::uint32_t i : plan.candidates) {
         const SiblingGroup& group = groups[i];
-        if (room.residency.state[group.parent] == NodeState::resident && !canMakeRoom(room, group)) {
-            refuseMemory(room, group);
-        }
+        if (isStillCandidate(room, group) && !canMakeRoom(room, group)) refuseMemory(room, group);
     }
 }
 
@@ -84,10 +86,6 @@ void listWishes(const Hierarchy& hierarchy, const Residency& residency, LoadPlan
 }
 
 }  // namespace
-
-std::uint64_t budgetBytes(const LoadSettings& load) {
-    return static_cast<std::uint64_t>(std::floor(load.budgetMiB * kBytesPerMiB));
-}
 
 std::uint64_t flightWindowBytes(std::uint64_t budgetBytes) {
     return std::max(kSmallestWindowBytes, budgetBytes / 8);
@@ -116,8 +114,8 @@ void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan) {
 
     plan.everythingLoaded = residency.inFlight.empty();
     for (const SiblingGroup& group : plan.groups.groups) {
-        if (group.evicted || (!group.complete && !group.broken && !group.hopeless))
-            plan.everythingLoaded = false;
+        const bool settled = group.complete || group.broken || group.hopeless;
+        if (group.evicted || !settled) plan.everythingLoaded = false;
     }
 }
 

@@ -22,11 +22,11 @@ struct Wish {
 };
 
 struct LoadPlan {
-    std::vector<Wish>
-        wishes;  // all in flight, falling priority, siblings side by side: what the loader works on
+    std::vector<Wish> wishes;       // all in flight, falling priority, siblings side by side: for the loader
     std::vector<NodeId> evicted;    // given up this frame; the caller releases them on the device
     bool everythingLoaded = false;  // no candidate is left and nothing is in flight
-    bool frontEvicted = false;      // a node of the front had to go (budget cut): select again before drawing
+    bool frontEvicted =
+        false;  // a node of inFront had to go (budget cut): that front must not be drawn again
     // Scratch.
     SiblingGroups groups;
     std::vector<std::uint32_t> candidates;   // groups that could be loaded, a heap by priority
@@ -41,12 +41,14 @@ struct PlanInput {
     const SelectSettings& select;
     const LoadSettings& load;
     const ActiveEffects& effects;
-    std::span<const std::uint8_t>
-        inFront;  // one a node, 1: drawn this frame, must stay; or empty: no front yet
+    std::span<const std::uint8_t> inFront;  // one a node, 1: drawn this frame, must stay; empty: no front yet
     double nowSeconds = 0.0;
 };
 
-[[nodiscard]] std::uint64_t budgetBytes(const LoadSettings& load);
+// maxMemory in bytes.
+[[nodiscard]] inline std::uint64_t budgetBytes(const LoadSettings& load) {
+    return static_cast<std::uint64_t>(load.budgetMiB * kBytesPerMiB);
+}
 
 // Bytes that may be in flight at once: an eighth of the budget, at least 8 MiB; a larger group goes alone.
 // Few enough that a change of priorities shows at once, enough that the loader always knows what comes next.

@@ -16,6 +16,8 @@
 
 namespace fb {
 
+inline constexpr double kBytesPerMiB = 1048576.0;
+
 enum class NodeState : std::uint8_t { unloaded, wanted, ready, resident, failedTemporarily, failed };
 
 // A node is tried this often; the wait after failure i (1, 2, …) is kFirstRetrySeconds * 2^(i - 1).

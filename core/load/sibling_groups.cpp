@@ -24,25 +24,24 @@ void listParents(const Hierarchy& hierarchy, const Residency& residency, std::ve
 }
 
 void addMember(const PlanInput& input, Residency& residency, NodeId node, SiblingGroup& group) {
-    const std::uint64_t bytes = input.hierarchy.residentBytes[node];
+    const SiblingGroup::Part part{1, input.hierarchy.residentBytes[node]};
     residency.memoryRefused[node] = 0;
     switch (residency.state[node]) {
         case NodeState::resident:
-            group.heldBytes += bytes;
+            group.held.add(part);
             if (!input.inFront.empty() && input.inFront[node] != 0) group.pinned = true;
             return;
         case NodeState::wanted:
         case NodeState::ready:
-            group.heldBytes += bytes;
-            group.inFlightBytes += bytes;
+            group.held.add(part);
+            group.inFlight.add(part);
             break;
         case NodeState::failed:
             group.broken = true;
             break;
         case NodeState::failedTemporarily:
         case NodeState::unloaded:
-            group.missingBytes += bytes;
-            ++group.missingMembers;
+            group.missing.add(part);
             if (residency.state[node] == NodeState::failedTemporarily &&
                 input.nowSeconds < residency.retryAtSeconds[node]) {
                 group.waiting = true;
@@ -79,7 +78,7 @@ void gatherSiblingGroups(const PlanInput& input, Residency& residency, SiblingGr
         }
         group.usable = reachable && !group.hopeless && (group.complete || group.broken);
         group.waiting = group.waiting || !reachable;
-        if (!group.hopeless && (reachable || group.heldBytes > 0)) {
+        if (!group.hopeless && (reachable || group.held.members > 0)) {
             for (NodeId node = first; node < end; ++node) {
                 const double seen =
                     lookAtNode(hierarchy, node, input.view, input.select, input.effects).priority;

@@ -22,20 +22,33 @@ struct Residency;
 inline constexpr std::uint32_t kNoGroup = ~std::uint32_t{0};
 
 struct SiblingGroup {
+    // Some of the members.
+    struct Part {
+        std::uint32_t members = 0;
+        std::uint64_t bytes = 0;
+        void add(const Part& other) {
+            members += other.members;
+            bytes += other.bytes;
+        }
+        void remove(const Part& other) {
+            members -= other.members;
+            bytes -= other.bytes;
+        }
+    };
+
     NodeId parent = kNoNode;         // resident; the members are its children
     std::uint32_t above = kNoGroup;  // group that the parent is a member of; none for the children of a root
     double priority = 0.0;           // 0 where hopeless
-    std::uint64_t heldBytes = 0;     // of members resident or in flight
-    std::uint64_t inFlightBytes = 0;
-    std::uint64_t missingBytes = 0;  // of members that are neither and have not failed for good
-    std::uint32_t missingMembers = 0;
-    bool complete = false;  // all members resident
-    bool broken = false;    // a member has failed for good: it will never be complete, nothing more is loaded
-    bool hopeless =
-        false;             // no member can ever be drawn: broken while all children are needed, or below that
-    bool waiting = false;  // a member may not be tried yet: after a failure, or the group above is incomplete
-    bool usable = false;   // its members' children could be drawn
-    bool pinned = false;   // holds a node of the front, or hangs above one that does
+    Part held;                       // resident or in flight
+    Part inFlight;
+    Part missing;           // not held, and not failed for good
+    bool complete = false;  // all members are resident
+    bool broken = false;    // a member has failed for good: never complete, nothing more is loaded
+    bool hopeless = false;  // no member can ever be drawn: broken while all are needed, or below such a group
+    bool waiting =
+        false;            // may not be loaded yet: a member has just failed, or the group above is incomplete
+    bool usable = false;  // its members' children could be drawn
+    bool pinned = false;  // holds a node of the front, or hangs above one that does
     bool evicted = false;  // in this frame
 };
 

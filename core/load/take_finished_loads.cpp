@@ -8,7 +8,6 @@
 namespace fb {
 namespace {
 
-constexpr double kBytesPerMiB = 1048576.0;
 
 void giveBack(const UploadInput& input, Residency& residency, NodeId node, Error error) {
     residency.setFailed(input.hierarchy, node, input.nowSeconds);

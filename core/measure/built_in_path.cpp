@@ -10,7 +10,8 @@
 namespace fb {
 namespace {
 
-constexpr double kKeySeconds = 0.25;      // between the keys of smooth paths
+constexpr double kKeySeconds = 0.25;  // between the keys of smooth paths
+constexpr int kKeyCount = static_cast<int>(kBuiltInPathSeconds / kKeySeconds);
 constexpr double kCutEverySeconds = 2.0;  // of jump
 
 double smoothStep(double from, double to, double t) {
@@ -53,36 +54,43 @@ void addWalk(Keys& out, double pace) {
 }
 
 void addFly(Keys& out) {
-    const int count = static_cast<int>(std::lround(kBuiltInPathSeconds / kKeySeconds));
-    for (int k = 0; k <= count; ++k)
-        out.add(k * kKeySeconds, flyCameraAt(out.ground, static_cast<double>(k) / count));
+    for (int k = 0; k <= kKeyCount; ++k) {
+        out.add(k * kKeySeconds, flyCameraAt(out.ground, static_cast<double>(k) / kKeyCount));
+    }
 }
 
-// Figure 7 of the paper: 8 s of walking, then up over the roofs while walking on, then back until the whole
-// scene is in view. The way back begins when the eye is above everything.
-void addWalkToFly(Keys& out) {
-    const PathGround& ground = out.ground;
-    const double size = ground.diagonalMetres, top = ground.heightMetres / 2.0;
-    const WalkView turn = walkViewAt(ground, 16.0 * ground.metresPerSecond, 0.0);
-    const glm::dvec2 yaw = circlePoint(turn.yawTurns);
+// Where the walk-to-fly is at a moment: the walker lifted and drawn back.
+WalkView risingView(const PathGround& ground, const WalkView& last, double t) {
+    const double size = ground.diagonalMetres;
+    const double stopping = std::min(12.0, std::max(0.0, t - 8.0));
+    const double walked = std::min(t, 8.0) + stopping - stopping * stopping / 24.0;
+    const double rise = smoothStep(8.0, 20.0, t), retreat = smoothStep(16.0, 30.0, t);
+
+    WalkView view = walkViewAt(ground, walked * ground.metresPerSecond, 1.0 - rise);
+    const glm::dvec2 yaw = circlePoint(last.yawTurns);
     const glm::dvec3 back = (ground.axes.along * yaw.x + ground.axes.across * yaw.y) * (-0.9 * size);
-    const double endHeight = top + 0.7 * size;  // above the centre
-    const double endPitch = turnsOf({0.9 * size, -endHeight});
-    const int count = static_cast<int>(std::lround(kBuiltInPathSeconds / kKeySeconds));
-    for (int k = 0; k <= count; ++k) {
+    const double endHeight = ground.heightMetres / 2.0 + 0.7 * size;  // above the centre
+    const double startHeight = glm::dot(view.eye - ground.centre, ground.axes.up);
+    const glm::dvec3 start = view.eye - ground.centre - ground.axes.up * startHeight;
+    const double height = startHeight + (endHeight - startHeight) * rise;
+    const glm::dvec3 level = start * (1.0 - retreat) + back * retreat;
+    view.eye = ground.centre + level + ground.axes.up * height;
+
+    const double turnBy = last.yawTurns - view.yawTurns;
+    view.yawTurns += (turnBy - std::floor(turnBy + 0.5)) * rise;
+    // Down to the centre, though not steeply where the street lies right under it.
+    const double away = std::max((ground.hinted ? 0.5 : 0.0) * size, std::sqrt(glm::dot(level, level)));
+    view.pitchTurns += (turnsOf({away, -height}) - view.pitchTurns) * smoothStep(8.0, 16.0, t);
+    return view;
+}
+
+// Figure 7 of the paper: 8 s of walking, then up while the walk comes to a stop within 12 s, then back until
+// the whole scene is in view. The way back begins when the eye is above everything.
+void addWalkToFly(Keys& out) {
+    const WalkView last = walkViewAt(out.ground, 14.0 * out.ground.metresPerSecond, 0.0);
+    for (int k = 0; k <= kKeyCount; ++k) {
         const double t = k * kKeySeconds;
-        const double rise = smoothStep(8.0, 20.0, t), retreat = smoothStep(16.0, 30.0, t),
-                     look = smoothStep(8.0, 24.0, t);
-        WalkView view = walkViewAt(ground, t * ground.metresPerSecond, 1.0 - look);
-        const glm::dvec3 offset = view.eye - ground.centre;
-        const double height = glm::dot(offset, ground.axes.up);
-        const glm::dvec3 level = offset - ground.axes.up * height;
-        view.eye = ground.centre + level * (1.0 - retreat) + back * retreat +
-                   ground.axes.up * (height + (endHeight - height) * rise);
-        const double turnBy = turn.yawTurns - view.yawTurns;
-        view.yawTurns += (turnBy - std::floor(turnBy + 0.5)) * look;
-        view.pitchTurns += (endPitch - view.pitchTurns) * look;
-        out.add(t, cameraOf(view, ground));
+        out.add(t, cameraOf(risingView(out.ground, last, t), out.ground));
     }
 }
 

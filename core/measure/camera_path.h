@@ -34,12 +34,12 @@ struct CameraPath {
 
     [[nodiscard]] double durationSeconds() const { return keys.empty() ? 0.0 : keys.back().timeSeconds; }
     [[nodiscard]] Camera at(double timeSeconds) const;
-    // m/s by the slope of the spline; 0 at and before a cut and outside the path.
+    // m/s by the slope of the spline; 0 where the camera rests before a cut, at the cut itself, and outside the path.
     [[nodiscard]] glm::dvec3 velocityAt(double timeSeconds) const;
 };
 
-[[nodiscard]] std::vector<std::string_view>
-builtInPathNames();  // still walk drive fly walk-to-fly shake jump
+// still walk drive fly walk-to-fly shake jump
+[[nodiscard]] std::vector<std::string_view> builtInPathNames();
 
 // `nameOrFile`: a built-in name, or a .toml file (resources/paths/ is searched too, with or without ".toml").
 // Built-in paths last 30 s. drive is the walk at ten times the speed: where the way is shorter than the ten

@@ -99,7 +99,7 @@ WalkView walkViewAt(const PathGround& ground, double metres, double headTurns) {
 Camera flyCameraAt(const PathGround& ground, double fraction) {
     const double wave = circlePoint(2.0 * fraction).x;  // 1 far, -1 close
     const glm::dvec2 round = circlePoint(fraction - 0.25);
-    const double out = ground.diagonalMetres * (0.75 + 0.35 * wave);
+    const double out = ground.diagonalMetres * (0.68 + 0.42 * wave);
     const double above = ground.heightMetres / 2.0 + ground.diagonalMetres * (0.45 + 0.2 * wave);
     const glm::dvec3 offset =
         (ground.axes.along * round.x + ground.axes.across * round.y) * out + ground.axes.up * above;

@@ -1,5 +1,6 @@
-// Little-endian numbers of fixed width into and out of byte buffers. A reader never reads past its end: it gives zeros
-// from there on and remembers it, so that a record is read first and asked once whether it was whole.
+// Little-endian numbers of fixed width into and out of byte buffers. A reader never reads past its end: it
+// gives zeros from there on and remembers it, so that a record is read first and asked once whether it was
+// whole.
 #pragma once
 
 #include <bit>
@@ -18,28 +19,26 @@ static_assert(std::endian::native == std::endian::little, "vertices are coded as
 class ByteWriter {
   public:
     template <class T>
-        requires std::integral<T> || std::floating_point<T>
-    ByteWriter& put(T value) {
-        const auto* raw = reinterpret_cast<const std::uint8_t*>(&value);
-        bytes_.insert(bytes_.end(), raw, raw + sizeof(T));
-        return *this;
+    requires std::integral<T> || std::floating_point<T> ByteWriter& put(T value) {
+        return copy(&value, sizeof(T));
     }
     ByteWriter& put(const glm::vec3& v) { return put(v.x).put(v.y).put(v.z); }
     ByteWriter& put(const glm::dvec3& v) { return put(v.x).put(v.y).put(v.z); }
-    ByteWriter& text(std::string_view text) {
-        bytes_.insert(bytes_.end(), text.begin(), text.end());
-        return *this;
-    }
-    ByteWriter& append(std::span<const std::uint8_t> bytes) {
-        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-        return *this;
-    }
+    ByteWriter& text(std::string_view text) { return copy(text.data(), text.size()); }
+    ByteWriter& append(std::span<const std::uint8_t> bytes) { return copy(bytes.data(), bytes.size()); }
     void reserve(std::size_t sizeBytes) { bytes_.reserve(sizeBytes); }
     [[nodiscard]] std::size_t size() const { return bytes_.size(); }
     [[nodiscard]] const std::vector<std::uint8_t>& bytes() const { return bytes_; }
     [[nodiscard]] std::vector<std::uint8_t> take() { return std::move(bytes_); }
 
   private:
+    ByteWriter& copy(const void* from, std::size_t sizeBytes) {
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + sizeBytes);
+        if (sizeBytes > 0) std::memcpy(bytes_.data() + at, from, sizeBytes);
+        return *this;
+    }
+
     std::vector<std::uint8_t> bytes_;
 };
 
@@ -48,8 +47,7 @@ class ByteReader {
     explicit ByteReader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
 
     template <class T>
-        requires std::integral<T> || std::floating_point<T>
-    T get() {
+    requires std::integral<T> || std::floating_point<T> T get() {
         T value{};
         const std::span<const std::uint8_t> raw = take(sizeof(T));
         if (!raw.empty()) std::memcpy(&value, raw.data(), sizeof(T));

@@ -35,7 +35,8 @@ std::string disagreement(const char* of, std::uint64_t payload, std::uint64_t re
 // What the payload says of itself against what the hierarchy says of it; empty when they agree.
 std::string compareCounts(const NodeData& data, const Hierarchy& h, NodeId n) {
     const NodeMesh& mesh = data.mesh;
-    if (mesh.vertices.size() != h.vertices[n]) return disagreement("vertices", mesh.vertices.size(), h.vertices[n]);
+    if (mesh.vertices.size() != h.vertices[n])
+        return disagreement("vertices", mesh.vertices.size(), h.vertices[n]);
     if (mesh.texturedTriangles != h.texturedTriangles[n]) {
         return disagreement("textured triangles", mesh.texturedTriangles, h.texturedTriangles[n]);
     }
@@ -119,10 +120,12 @@ void compareWithPacks(Checker& checker, const HierarchyFile& file, const std::ve
     const std::vector<std::uint8_t> there = encodeHierarchyFile(file);
     const std::vector<std::uint8_t> again = encodeHierarchyFile({joinBlocks(blocks), file.packs});
     if (there == again) return;
-    const auto differ = std::ranges::mismatch(there, again).in1 - there.begin();
-    const std::uint64_t tables = kHierarchyHeaderBytes + file.packs.size() * kBlockRecordBytes;
-    const auto at = static_cast<std::uint64_t>(differ);
-    checker.fault("hierarchy.bin", at < tables ? "" : "node " + std::to_string((at - tables) / kNodeRecordBytes),
+    // The header's checksums differ too, so the place is that of the first difference behind it.
+    std::size_t at = kHierarchyHeaderBytes;
+    while (at < std::min(there.size(), again.size()) && there[at] == again[at]) ++at;
+    const std::uint64_t nodes = kHierarchyHeaderBytes + file.packs.size() * kBlockRecordBytes;
+    checker.fault("hierarchy.bin",
+                  at < nodes ? "block table" : "node " + std::to_string((at - nodes) / kNodeRecordBytes),
                   "differs from what the packs say of their nodes");
 }
 
@@ -140,8 +143,10 @@ Result<void> checkPacks(Checker& checker, const HierarchyFile& file) {
             continue;
         }
         Result<PackTrailer> frame = readPackFrame(*pack, file.packs[b].number);
-        if (frame) blocks.push_back(std::move(frame->block));
-        else checker.fault(frame.error());
+        if (frame)
+            blocks.push_back(std::move(frame->block));
+        else
+            checker.fault(frame.error());
         for (NodeId n : nodesOf[b]) {
             checkPayload(checker, *pack, h, n);
             ++done;
@@ -168,7 +173,8 @@ Result<SceneCheck> checkScene(const std::filesystem::path& folder, const Progres
         return std::move(checker.found);
     }
     if (toml) {
-        if (Result<void> same = checkBelongTogether(folder, *toml, *hierarchy); !same) checker.fault(same.error());
+        if (Result<void> same = checkBelongTogether(folder, *toml, *hierarchy); !same)
+            checker.fault(same.error());
     }
     if (Result<void> all = checkPacks(checker, hierarchy->file); !all) return passOn(all);
     return std::move(checker.found);

@@ -9,8 +9,8 @@
 
 namespace fb {
 
-// `into` takes width * height RGBA8 texels. Width, height and channels of the encoded image must be those of `texture`;
-// they are compared before any pixel is read. One channel is grey, two are grey and alpha.
+// `into` takes width * height RGBA8 texels. Width, height and channels of the encoded image must be those of
+// `texture`; they are compared before any pixel is read. One channel is grey, two are grey and alpha.
 [[nodiscard]] Result<void> decodeTexture(const NodeTexture& texture, std::span<std::uint8_t> into,
                                          const std::string& what);
 

@@ -49,14 +49,16 @@ std::vector<std::uint32_t> orderTriangles(const NodeMesh& mesh) {
     const std::pair<std::size_t, std::size_t> ranges[] = {{0, split}, {split, mesh.indices.size() - split}};
     for (const auto& [first, count] : ranges) {
         if (count == 0) continue;
-        meshopt_optimizeVertexCache(ordered.data() + first, mesh.indices.data() + first, count, mesh.vertices.size());
+        meshopt_optimizeVertexCache(ordered.data() + first, mesh.indices.data() + first, count,
+                                    mesh.vertices.size());
     }
     return ordered;
 }
 
-// Vertices in the order in which the triangles ask for them; those that none asks for come last, so that the number of
-// vertices stays what the node's record says.
-std::vector<NodeVertex> orderVertices(const std::vector<NodeVertex>& vertices, std::vector<std::uint32_t>& indices) {
+// Vertices in the order in which the triangles ask for them; those that none asks for come last, so that the
+// number of vertices stays what the node's record says.
+std::vector<NodeVertex> orderVertices(const std::vector<NodeVertex>& vertices,
+                                      std::vector<std::uint32_t>& indices) {
     constexpr std::uint32_t kUnplaced = ~std::uint32_t{0};
     std::vector<std::uint32_t> place(vertices.size(), kUnplaced);
     std::uint32_t next = 0;
@@ -74,8 +76,8 @@ std::vector<NodeVertex> orderVertices(const std::vector<NodeVertex>& vertices, s
 
 std::vector<std::uint8_t> codeVertices(const std::vector<NodeVertex>& vertices) {
     std::vector<std::uint8_t> bytes(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(NodeVertex)));
-    const std::size_t used = meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices.data(), vertices.size(),
-                                                        sizeof(NodeVertex));
+    const std::size_t used = meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices.data(),
+                                                        vertices.size(), sizeof(NodeVertex));
     FB_CHECK(used != std::size_t{0});
     bytes.resize(used);
     return bytes;
@@ -83,7 +85,8 @@ std::vector<std::uint8_t> codeVertices(const std::vector<NodeVertex>& vertices) 
 
 std::vector<std::uint8_t> codeIndices(const std::vector<std::uint32_t>& indices, std::size_t vertices) {
     std::vector<std::uint8_t> bytes(meshopt_encodeIndexBufferBound(indices.size(), vertices));
-    const std::size_t used = meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), indices.size());
+    const std::size_t used =
+        meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), indices.data(), indices.size());
     FB_CHECK(used != std::size_t{0});
     bytes.resize(used);
     return bytes;
@@ -92,16 +95,20 @@ std::vector<std::uint8_t> codeIndices(const std::vector<std::uint32_t>& indices,
 Result<void> checkCaps(const NodeData& node) {
     const std::string hint = "lower build.desired_triangles or cut the block into smaller ones";
     if (node.mesh.vertices.size() > kMaxNodeVertices) {
-        return failure({}, {}, "a node has more than " + std::to_string(kMaxNodeVertices) + " vertices", hint);
+        return failure({}, {}, "a node has more than " + std::to_string(kMaxNodeVertices) + " vertices",
+                       hint);
     }
     if (node.mesh.indices.size() / 3 > kMaxNodeTriangles) {
-        return failure({}, {}, "a node has more than " + std::to_string(kMaxNodeTriangles) + " triangles", hint);
+        return failure({}, {}, "a node has more than " + std::to_string(kMaxNodeTriangles) + " triangles",
+                       hint);
     }
     if (std::max(node.texture.width, node.texture.height) > kMaxTextureSide) {
-        return failure({}, {}, "a node's texture is wider than " + std::to_string(kMaxTextureSide) + " texels",
+        return failure({}, {},
+                       "a node's texture is wider than " + std::to_string(kMaxTextureSide) + " texels",
                        "lower build.max_texture_side");
     }
-    // Mesh codecs need less than 1.1 GB at the caps above: what remains keeps the payload's size within 32 bits.
+    // Mesh codecs need less than 1.1 GB at the caps above: what remains keeps the payload's size within 32
+    // bits.
     if (node.texture.encoded.size() > (std::size_t{1} << 31)) {
         return failure({}, {}, "a node's texture takes more than 2 GiB", "lower build.max_texture_side");
     }
@@ -131,7 +138,8 @@ Result<std::vector<std::uint8_t>> encodePayload(const NodeData& node) {
     out.put(node.mesh.flags.alphaMask ? kFlagAlphaMask : 0u);
     out.put(static_cast<std::uint8_t>(texture.codec)).put(textured ? texture.channels : std::uint8_t{0});
     out.put(texture.width).put(texture.height).put(std::uint16_t{0});
-    out.put(static_cast<std::uint32_t>(vertexBytes.size())).put(static_cast<std::uint32_t>(indexBytes.size()));
+    out.put(static_cast<std::uint32_t>(vertexBytes.size()))
+        .put(static_cast<std::uint32_t>(indexBytes.size()));
     out.put(static_cast<std::uint32_t>(texture.encoded.size()));
     FB_CHECK(out.size() == kPayloadHeaderBytes);
     out.append(vertexBytes).append(indexBytes).append(texture.encoded);

@@ -13,7 +13,12 @@ namespace {
 constexpr std::string_view kMagic = "fbscene\n";
 
 void putBlock(ByteWriter& out, const BlockGrid& grid, const StoredPack& pack) {
-    out.put(pack.number).put(std::uint32_t{0}).put(grid.origin).put(grid.step).put(pack.sizeBytes).put(pack.seal);
+    out.put(pack.number)
+        .put(std::uint32_t{0})
+        .put(grid.origin)
+        .put(grid.step)
+        .put(pack.sizeBytes)
+        .put(pack.seal);
 }
 
 void putNode(ByteWriter& out, const Hierarchy& h, NodeId n) {
@@ -21,7 +26,10 @@ void putNode(ByteWriter& out, const Hierarchy& h, NodeId n) {
     out.put(std::uint32_t{h.level[n]}).put(h.block[n]).put(h.bounds[n].min).put(h.bounds[n].max);
     out.put(h.texturedTriangles[n]).put(h.untexturedTriangles[n]).put(h.vertices[n]);
     out.put(h.staticBenefit[n]).put(h.averageNormal[n]).put(h.normalCoherence[n]);
-    out.put(h.areaSquareMetres[n]).put(h.geometricErrorMetres[n]).put(h.textureWidth[n]).put(h.textureHeight[n]);
+    out.put(h.areaSquareMetres[n])
+        .put(h.geometricErrorMetres[n])
+        .put(h.textureWidth[n])
+        .put(h.textureHeight[n]);
     const PayloadRef& payload = h.payload[n];
     out.put(payload.pack).put(payload.offset).put(payload.sizeBytes).put(payload.checksum);
 }
@@ -82,14 +90,14 @@ Result<Header> readHeader(std::span<const std::uint8_t> bytes, const std::string
     }
     if (header.nodes == 0 || header.nodes > kMaxNodes || header.blocks == 0 || header.blocks > kMaxBlocks) {
         return failure(what, "header",
-                       "cannot have " + std::to_string(header.blocks) + " blocks and " + std::to_string(header.nodes) +
-                           " nodes");
+                       "cannot have " + std::to_string(header.blocks) + " blocks and " +
+                           std::to_string(header.nodes) + " nodes");
     }
     const std::uint64_t expected = header.blocks * kBlockRecordBytes + header.nodes * kNodeRecordBytes;
     if (in.left() != expected) {
         return failure(what, "header",
-                       "the tables take " + std::to_string(expected) + " bytes, but " + std::to_string(in.left()) +
-                           " are there",
+                       "the tables take " + std::to_string(expected) + " bytes, but " +
+                           std::to_string(in.left()) + " are there",
                        "the file is damaged: build it again");
     }
     return header;
@@ -116,7 +124,8 @@ Result<void> readBlocks(std::span<const std::uint8_t> table, HierarchyFile& file
 Result<void> readNodes(std::span<const std::uint8_t> table, Hierarchy& h, const std::string& what) {
     ByteReader in(table);
     for (NodeId n = 0; n < h.size(); ++n) {
-        if (!getNode(in, h, n)) return failure(what, "node " + std::to_string(n), "its id or level cannot be");
+        if (!getNode(in, h, n))
+            return failure(what, "node " + std::to_string(n), "its id or level cannot be");
     }
     Result<void> sound = checkHierarchy(h);
     if (!sound) sound.error().file = what;
@@ -125,7 +134,8 @@ Result<void> readNodes(std::span<const std::uint8_t> table, Hierarchy& h, const 
 
 // Where the payload may lie: behind the pack's header and before the least trailer that there can be.
 bool insidePack(const PayloadRef& payload, const StoredPack& pack) {
-    if (payload.pack != pack.number || payload.sizeBytes == 0 || payload.offset % kPackAlignment != 0) return false;
+    if (payload.pack != pack.number || payload.sizeBytes == 0 || payload.offset % kPackAlignment != 0)
+        return false;
     if (payload.offset < kPackHeaderBytes || pack.sizeBytes < kLeastTrailerBytes) return false;
     const std::uint64_t end = pack.sizeBytes - kLeastTrailerBytes;
     return payload.offset <= end && payload.sizeBytes <= end - payload.offset;

@@ -1,7 +1,7 @@
 // hierarchy.bin: the scene description file of the thesis (design section 5), as bytes.
-//   header       magic, version, numbers of blocks and nodes, checksums of both tables and of itself (48 bytes)
-//   block table  pack number, grid, length and seal of the pack (56 bytes a block)
-//   node table   one record a node, breadth first (116 bytes a node)
+//   header       magic, version, numbers of blocks and nodes, checksums of both tables and of itself (48
+//   bytes) block table  pack number, grid, length and seal of the pack (56 bytes a block) node table   one
+//   record a node, breadth first (116 bytes a node)
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,10 @@ struct HierarchyFile {
 
 [[nodiscard]] std::vector<std::uint8_t> encodeHierarchyFile(const HierarchyFile& file);
 
-// Checks everything that can be known without the packs: checksums, counts against the bytes left, checkHierarchy(), and
-// that payloads lie inside their packs. `what` names the file in the error.
-[[nodiscard]] Result<HierarchyFile> parseHierarchyFile(std::span<const std::uint8_t> bytes, const std::string& what);
+// Checks everything that can be known without the packs: checksums, counts against the bytes left,
+// checkHierarchy(), and that payloads lie inside their packs. `what` names the file in the error.
+[[nodiscard]] Result<HierarchyFile> parseHierarchyFile(std::span<const std::uint8_t> bytes,
+                                                       const std::string& what);
 
 inline constexpr std::uint64_t kHierarchyHeaderBytes = 48;
 inline constexpr std::uint64_t kBlockRecordBytes = 56;

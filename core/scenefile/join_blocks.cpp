@@ -26,8 +26,9 @@ void setNode(Hierarchy& h, NodeId id, const BuiltNode& node) {
     h.geometricErrorMetres[id] = node.geometricErrorMetres;
     h.textureWidth[id] = node.textureWidth;
     h.textureHeight[id] = node.textureHeight;
-    const std::uint64_t bytes = residentBytes(node.vertices, node.texturedTriangles + node.untexturedTriangles,
-                                              node.textureWidth, node.textureHeight);
+    const std::uint64_t bytes =
+        residentBytes(node.vertices, node.texturedTriangles + node.untexturedTriangles, node.textureWidth,
+                      node.textureHeight);
     h.residentBytes[id] = static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, ~std::uint32_t{0}));
     h.payload[id] = node.payload;
 }
@@ -56,8 +57,9 @@ void appendLevel(Hierarchy& h, Joining& from, std::uint32_t block, std::uint32_t
 
 }  // namespace
 
-// Breadth first over the scene = level by level, and within a level block by block: a block's own breadth-first order
-// is kept, so children stay contiguous. Blocks without nodes are left out; a pack keeps the number it was written with.
+// Breadth first over the scene = level by level, and within a level block by block: a block's own
+// breadth-first order is kept, so children stay contiguous. Blocks without nodes are left out; a pack keeps
+// the number it was written with.
 Hierarchy joinBlocks(const std::vector<BuiltBlock>& blocks) {
     Hierarchy h;
     h.resize(nodeCount(blocks));

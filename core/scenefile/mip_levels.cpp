@@ -32,12 +32,14 @@ std::uint32_t meanOfFour(std::uint32_t a, std::uint32_t b, std::uint32_t c, std:
     constexpr std::uint32_t kMask = 0x00ff00ff;
     constexpr std::uint32_t kHalf = 0x00020002;
     const std::uint32_t even = (a & kMask) + (b & kMask) + (c & kMask) + (d & kMask) + kHalf;
-    const std::uint32_t odd = (a >> 8 & kMask) + (b >> 8 & kMask) + (c >> 8 & kMask) + (d >> 8 & kMask) + kHalf;
+    const std::uint32_t odd =
+        (a >> 8 & kMask) + (b >> 8 & kMask) + (c >> 8 & kMask) + (d >> 8 & kMask) + kHalf;
     return (even >> 2 & kMask) | (odd >> 2 & kMask) << 8;
 }
 
-// The texels of the finer level that one texel covers along one axis, and how much of each (as whole numbers with the
-// sum `total`). A side of 2m + 1 becomes m: each texel covers 2 + 1/m texels, three with weights m - i, m, i + 1.
+// The texels of the finer level that one texel covers along one axis, and how much of each (as whole numbers
+// with the sum `total`). A side of 2m + 1 becomes m: each texel covers 2 + 1/m texels, three with weights m -
+// i, m, i + 1.
 struct Taps {
     std::uint32_t first, count, total;
     std::array<std::uint32_t, 3> weights;
@@ -67,7 +69,8 @@ struct Sums {
         const bool hole = alpha == 0;  // nothing to weight by: the colour under the hole
         const std::uint64_t divisor = hole ? weight : alpha;
         for (std::size_t c = 0; c < 3; ++c) {
-            into[c] = static_cast<std::uint8_t>(((hole ? colour[c] : colourAlpha[c]) + divisor / 2) / divisor);
+            into[c] =
+                static_cast<std::uint8_t>(((hole ? colour[c] : colourAlpha[c]) + divisor / 2) / divisor);
         }
         into[3] = static_cast<std::uint8_t>((alpha + weight / 2) / weight);
     }
@@ -117,8 +120,8 @@ std::array<std::uint64_t, 256> alphaHistogram(const Level& level) {
     return histogram;
 }
 
-// Of all thresholds the one that lets the share `keep / of` of the level's texels pass, or comes nearest to it; of
-// equals the one nearest to the shader's own.
+// Of all thresholds the one that lets the share `keep / of` of the level's texels pass, or comes nearest to
+// it; of equals the one nearest to the shader's own.
 std::uint32_t thresholdFor(const Level& level, std::uint64_t keep, std::uint64_t of) {
     const std::array<std::uint64_t, 256> histogram = alphaHistogram(level);
     const std::uint64_t wanted = keep * level.width * level.height;  // times `of`, as is `passing` below
@@ -138,11 +141,13 @@ std::uint32_t thresholdFor(const Level& level, std::uint64_t keep, std::uint64_t
 }
 
 // Scales alpha so that exactly the texels with alpha >= threshold reach the shader's threshold:
-// rounding t * 128 / t gives 128, and (t - 1) * 128 / t at most 127, for every t in [1, 256] (halves go down).
+// rounding t * 128 / t gives 128, and (t - 1) * 128 / t at most 127, for every t in [1, 256] (halves go
+// down).
 void scaleAlpha(const Level& level, std::uint32_t threshold) {
     std::array<std::uint8_t, 256> scaled{};
     for (std::uint32_t a = 0; a < 256; ++a) {
-        scaled[a] = static_cast<std::uint8_t>(std::min(255u, (a * kOpaqueFrom + (threshold - 1) / 2) / threshold));
+        scaled[a] =
+            static_cast<std::uint8_t>(std::min(255u, (a * kOpaqueFrom + (threshold - 1) / 2) / threshold));
     }
     const std::size_t texels = std::size_t{level.width} * level.height;
     for (std::size_t i = 0; i < texels; ++i) level.texels[i * 4 + 3] = scaled[level.texels[i * 4 + 3]];
@@ -157,18 +162,22 @@ std::uint64_t opaqueTexels(const Level& level) {
 
 }  // namespace
 
-void buildMipLevels(std::span<std::uint8_t> texels, std::uint32_t width, std::uint32_t height, MipAlpha alpha) {
+void buildMipLevels(std::span<std::uint8_t> texels, std::uint32_t width, std::uint32_t height,
+                    MipAlpha alpha) {
     FB_CHECK(texels.size() == mippedBytes(width, height));
     const std::uint32_t levels = mipLevelCount(width, height);
     const auto nextOf = [](const Level& level) {
-        return Level{level.at(0, level.height), std::max(1u, level.width / 2), std::max(1u, level.height / 2)};
+        return Level{level.at(0, level.height), std::max(1u, level.width / 2),
+                     std::max(1u, level.height / 2)};
     };
     const Level finest{texels.data(), width, height};
     Level from = finest;
     for (std::uint32_t i = 1; i < levels; ++i) {
         const Level to = nextOf(from);
-        if (from.width % 2 == 0 && from.height % 2 == 0) halveEvenSides(from, to, alpha == MipAlpha::opaque);
-        else halveOddSides(from, to);
+        if (from.width % 2 == 0 && from.height % 2 == 0)
+            halveEvenSides(from, to, alpha == MipAlpha::opaque);
+        else
+            halveOddSides(from, to);
         from = to;
     }
     if (alpha != MipAlpha::mask) return;

@@ -27,8 +27,8 @@ glm::vec3 decodeNormal(const std::int16_t normal[2]) {
     return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
 }
 
-// An unknown direction (zero or not finite) is stored as +z. Only operations that IEEE 754 rounds in one way are used:
-// the same bytes on every machine.
+// An unknown direction (zero or not finite) is stored as +z. Only operations that IEEE 754 rounds in one way
+// are used: the same bytes on every machine.
 void encodeNormal(const glm::vec3& normal, std::int16_t into[2]) {
     const double sum = std::abs(double{normal.x}) + std::abs(double{normal.y}) + std::abs(double{normal.z});
     if (!(sum > 0.0) || !std::isfinite(sum)) {
@@ -63,8 +63,8 @@ std::uint64_t mippedBytes(std::uint32_t width, std::uint32_t height) {
 
 std::uint64_t residentBytes(std::uint32_t vertices, std::uint32_t triangles, std::uint32_t textureWidth,
                             std::uint32_t textureHeight) {
-    return std::uint64_t{vertices} * sizeof(GpuVertex) + std::uint64_t{triangles} * 3 * sizeof(std::uint32_t) +
-           mippedBytes(textureWidth, textureHeight);
+    return std::uint64_t{vertices} * sizeof(GpuVertex) +
+           std::uint64_t{triangles} * 3 * sizeof(std::uint32_t) + mippedBytes(textureWidth, textureHeight);
 }
 
 std::uint32_t atlasSide(std::uint32_t side) {

@@ -1,5 +1,5 @@
-// The parts of a scene folder, each opened and verified for itself: openScene() stops at the first that is wrong,
-// checkScene() reports all of them.
+// The parts of a scene folder, each opened and verified for itself: openScene() stops at the first that is
+// wrong, checkScene() reports all of them.
 #pragma once
 
 #include <filesystem>

@@ -8,7 +8,8 @@ Result<void> checkSceneFolder(const std::filesystem::path& folder) {
     std::error_code ignored;
     if (std::filesystem::is_directory(folder, ignored)) return {};
     const bool there = std::filesystem::exists(folder, ignored);
-    return failure(folder.string(), {}, there ? "is not a scene: a scene is a folder" : "there is no such scene",
+    return failure(folder.string(), {},
+                   there ? "is not a scene: a scene is a folder" : "there is no such scene",
                    "frontbench build INPUT... -o OUT.fbscene makes one");
 }
 

@@ -1,9 +1,11 @@
 // The bytes of a pack, blocks/NNNNN.pack:
 //   header   magic, version, block number (16 bytes)
 //   payloads in breadth-first order, each at a multiple of 8 bytes, gaps filled with zeros
-//   trailer  magic, settings hash, block hash, grid, node count, node records, then length and checksum of the trailer
-// The trailer is what makes a pack whole: a killed build takes up packs that have one. Its checksum, the file's last
-// 8 bytes, covers the payloads' checksums and so stands for the whole pack; hierarchy.bin keeps it as the pack's seal.
+//   trailer  magic, settings hash, block hash, grid, node count, node records, then length and checksum of
+//   the trailer
+// The trailer is what makes a pack whole: a killed build takes up packs that have one. Its checksum, the
+// file's last 8 bytes, covers the payloads' checksums and so stands for the whole pack; hierarchy.bin keeps
+// it as the pack's seal.
 #pragma once
 
 #include <cstdint>
@@ -53,12 +55,13 @@ struct PackSeal {
 // Reads the last bytes of a pack; an error when it is not whole.
 [[nodiscard]] Result<PackSeal> readSeal(const FileReader& pack);
 
-// Everything but the payloads: header, trailer with its checksum, structure of the block, and that the payloads fill the
-// pack from its header to its trailer in order, with zeros between.
+// Everything but the payloads: header, trailer with its checksum, structure of the block, and that the
+// payloads fill the pack from its header to its trailer in order, with zeros between.
 [[nodiscard]] Result<PackTrailer> readPackFrame(const FileReader& pack, std::uint32_t block);
 
 // The bytes that `payload` points at, verified. `place` names them in the error.
-[[nodiscard]] Result<std::vector<std::uint8_t>> readVerified(const FileReader& pack, const PayloadRef& payload,
+[[nodiscard]] Result<std::vector<std::uint8_t>> readVerified(const FileReader& pack,
+                                                             const PayloadRef& payload,
                                                              const std::string& place);
 
 }  // namespace fb

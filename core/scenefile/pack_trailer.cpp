@@ -11,7 +11,11 @@ namespace fb {
 namespace {
 
 void putNode(ByteWriter& out, const BuiltNode& n) {
-    out.put(n.parentInBlock).put(n.childCount).put(std::uint32_t{n.level}).put(n.bounds.min).put(n.bounds.max);
+    out.put(n.parentInBlock)
+        .put(n.childCount)
+        .put(std::uint32_t{n.level})
+        .put(n.bounds.min)
+        .put(n.bounds.max);
     out.put(n.texturedTriangles).put(n.untexturedTriangles).put(n.vertices);
     out.put(n.staticBenefit).put(n.normalCoherence).put(n.areaSquareMetres).put(n.geometricErrorMetres);
     out.put(n.averageNormal).put(n.textureWidth).put(n.textureHeight);
@@ -91,7 +95,8 @@ Result<PackTrailer> parseTrailer(std::span<const std::uint8_t> bytes, const std:
     in.get(trailer.block.grid.step);
     const auto count = in.get<std::uint64_t>();
     if (!in.whole() || in.left() < 16) return fault("is cut short");
-    if (count > kMaxNodes || count * kBuiltNodeBytes != in.left() - 16) return fault("claims a wrong number of nodes");
+    if (count > kMaxNodes || count * kBuiltNodeBytes != in.left() - 16)
+        return fault("claims a wrong number of nodes");
     trailer.block.nodes.resize(count);
     for (BuiltNode& node : trailer.block.nodes) {
         if (!getNode(in, node)) return fault("has a node whose level is out of range");

@@ -1,5 +1,5 @@
-// The bytes of a payload -> NodeData. Nothing is believed: the checksum has been compared before, but it only says that
-// the bytes are those that were written.
+// The bytes of a payload -> NodeData. Nothing is believed: the checksum has been compared before, but it only
+// says that the bytes are those that were written.
 #include <meshoptimizer.h>
 
 #include <algorithm>
@@ -12,19 +12,24 @@
 namespace fb {
 namespace {
 
-// The fewest bytes that meshoptimizer's codecs take: an allocation for `vertices` or `triangles` is made only when the
-// payload is long enough to hold them. Vertex codec: 256 vertices a block (24-byte vertices), per byte of the vertex 16
-// groups of 2 bits in the header. Index codec: a header byte, one code a triangle, a table of 16.
-std::uint64_t fewestVertexBytes(std::uint32_t vertices) { return std::uint64_t{vertices / 256} * 4 * sizeof(NodeVertex); }
-std::uint64_t fewestIndexBytes(std::uint64_t triangles) { return 1 + triangles + 16; }
+// The fewest bytes that meshoptimizer's codecs take: an allocation for `vertices` or `triangles` is made only
+// when the payload is long enough to hold them. Vertex codec: 256 vertices a block (24-byte vertices), per
+// byte of the vertex 16 groups of 2 bits in the header. Index codec: a header byte, one code a triangle, a
+// table of 16.
+std::uint64_t fewestVertexBytes(std::uint32_t vertices) {
+    return std::uint64_t{vertices / 256} * 4 * sizeof(NodeVertex);
+}
+std::uint64_t fewestIndexBytes(std::uint64_t triangles) {
+    return 1 + triangles + 16;
+}
 
 Result<void> checkSizes(const PayloadHeader& header, std::uint64_t left, const std::string& what) {
-    const std::uint64_t sum =
-        std::uint64_t{header.vertexBytes} + std::uint64_t{header.indexBytes} + std::uint64_t{header.textureBytes};
+    const std::uint64_t sum = std::uint64_t{header.vertexBytes} + std::uint64_t{header.indexBytes} +
+                              std::uint64_t{header.textureBytes};
     if (sum != left) {
         return failure(what, {},
-                       "the node's parts take " + std::to_string(sum) + " bytes, but " + std::to_string(left) +
-                           " are there");
+                       "the node's parts take " + std::to_string(sum) + " bytes, but " +
+                           std::to_string(left) + " are there");
     }
     if (header.vertices > kMaxNodeVertices || fewestVertexBytes(header.vertices) > header.vertexBytes) {
         return failure(what, {}, "the node claims too many vertices: " + std::to_string(header.vertices));
@@ -46,15 +51,16 @@ Result<void> checkTexture(const PayloadHeader& header, const std::string& what) 
         if (width != 0 || height != 0 || header.channels != 0 || header.textureBytes != 0) {
             return failure(what, {}, "the node has a texture without a codec");
         }
-        if (header.texturedTriangles != 0) return failure(what, {}, "the node has textured triangles but no texture");
+        if (header.texturedTriangles != 0)
+            return failure(what, {}, "the node has textured triangles but no texture");
         return {};
     }
-    const bool sides =
-        std::max(width, height) <= kMaxTextureSide && atlasSide(width) == width && atlasSide(height) == height;
+    const bool sides = std::max(width, height) <= kMaxTextureSide && atlasSide(width) == width &&
+                       atlasSide(height) == height;
     if (!sides || header.channels < 1 || header.channels > 4 || header.textureBytes == 0) {
         return failure(what, {},
-                       "the node's texture cannot be " + std::to_string(width) + " x " + std::to_string(height) +
-                           " with " + std::to_string(header.channels) + " channels");
+                       "the node's texture cannot be " + std::to_string(width) + " x " +
+                           std::to_string(height) + " with " + std::to_string(header.channels) + " channels");
     }
     return {};
 }
@@ -89,23 +95,25 @@ Result<PayloadHeader> readHeader(ByteReader& in, const std::string& what) {
 }
 
 Result<void> readVertices(std::span<const std::uint8_t> coded, NodeMesh& mesh, const std::string& what) {
-    if (meshopt_decodeVertexBuffer(mesh.vertices.data(), mesh.vertices.size(), sizeof(NodeVertex), coded.data(),
-                                   coded.size()) != 0) {
+    if (meshopt_decodeVertexBuffer(mesh.vertices.data(), mesh.vertices.size(), sizeof(NodeVertex),
+                                   coded.data(), coded.size()) != 0) {
         return failure(what, {}, "the node's vertices cannot be decoded");
     }
     for (const NodeVertex& v : mesh.vertices) {
-        if (std::max({v.x, v.y, v.z}) >= kGridCells) return failure(what, {}, "a vertex lies outside the block's grid");
+        if (std::max({v.x, v.y, v.z}) >= kGridCells)
+            return failure(what, {}, "a vertex lies outside the block's grid");
     }
     return {};
 }
 
 Result<void> readIndices(std::span<const std::uint8_t> coded, NodeMesh& mesh, const std::string& what) {
-    if (meshopt_decodeIndexBuffer(mesh.indices.data(), mesh.indices.size(), sizeof(std::uint32_t), coded.data(),
-                                  coded.size()) != 0) {
+    if (meshopt_decodeIndexBuffer(mesh.indices.data(), mesh.indices.size(), sizeof(std::uint32_t),
+                                  coded.data(), coded.size()) != 0) {
         return failure(what, {}, "the node's triangles cannot be decoded");
     }
     for (std::uint32_t index : mesh.indices) {
-        if (index >= mesh.vertices.size()) return failure(what, {}, "a triangle asks for a vertex that is not there");
+        if (index >= mesh.vertices.size())
+            return failure(what, {}, "a triangle asks for a vertex that is not there");
     }
     return {};
 }
@@ -130,7 +138,8 @@ Result<NodeData> parsePayload(std::span<const std::uint8_t> bytes, const std::st
     mesh.untexturedTriangles = header->untexturedTriangles;
     mesh.vertices.resize(header->vertices);
     mesh.indices.resize((std::size_t{header->texturedTriangles} + header->untexturedTriangles) * 3);
-    if (Result<void> read = readVertices(in.take(header->vertexBytes), mesh, what); !read) return passOn(read);
+    if (Result<void> read = readVertices(in.take(header->vertexBytes), mesh, what); !read)
+        return passOn(read);
     if (Result<void> read = readIndices(in.take(header->indexBytes), mesh, what); !read) return passOn(read);
     if (header->codec == static_cast<std::uint8_t>(PayloadCodec::none)) return node;
 

@@ -1,5 +1,6 @@
-// The bytes of a payload: this header, then vertices (meshoptimizer's vertex codec, version 0), indices (its index
-// codec, version 1) and the encoded texture, one after another without gaps. All sizes add up to the payload's.
+// The bytes of a payload: this header, then vertices (meshoptimizer's vertex codec, version 0), indices (its
+// index codec, version 1) and the encoded texture, one after another without gaps. All sizes add up to the
+// payload's.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,9 @@ struct PayloadHeader {
     std::uint32_t vertexBytes = 0, indexBytes = 0, textureBytes = 0;
 };
 
-// Every count against its cap and against the `left` bytes that follow the header; nothing is allocated before.
-[[nodiscard]] Result<void> checkPayloadHeader(const PayloadHeader& header, std::uint64_t left, const std::string& what);
+// Every count against its cap and against the `left` bytes that follow the header; nothing is allocated
+// before.
+[[nodiscard]] Result<void> checkPayloadHeader(const PayloadHeader& header, std::uint64_t left,
+                                              const std::string& what);
 
 }  // namespace fb

@@ -33,16 +33,19 @@ Result<void> checkPadding(const FileReader& pack, std::uint64_t from, std::uint6
     const std::span<std::uint8_t> padding = std::span(bytes).first(to - from);
     if (Result<void> read = pack.readAt(from, padding); !read) return read;
     if (std::ranges::any_of(padding, [](std::uint8_t b) { return b != 0; })) {
-        return failure(pack.path().string(), "byte " + std::to_string(from), "there must be zeros between payloads");
+        return failure(pack.path().string(), "byte " + std::to_string(from),
+                       "there must be zeros between payloads");
     }
     return {};
 }
 
-Result<void> checkLayout(const FileReader& pack, std::uint32_t block, const BuiltBlock& built, std::uint64_t end) {
+Result<void> checkLayout(const FileReader& pack, std::uint32_t block, const BuiltBlock& built,
+                         std::uint64_t end) {
     std::uint64_t offset = kPackHeaderBytes;
     for (std::size_t i = 0; i < built.nodes.size(); ++i) {
         const PayloadRef& ref = built.nodes[i].payload;
-        const bool fits = ref.pack == block && ref.offset == offset && ref.sizeBytes > 0 && ref.sizeBytes <= end - offset;
+        const bool fits =
+            ref.pack == block && ref.offset == offset && ref.sizeBytes > 0 && ref.sizeBytes <= end - offset;
         const std::uint64_t next = fits ? alignPayload(offset + ref.sizeBytes) : 0;
         if (!fits || next > end) {
             return failure(pack.path().string(), "node " + std::to_string(i) + " of the block",
@@ -51,7 +54,8 @@ Result<void> checkLayout(const FileReader& pack, std::uint32_t block, const Buil
         if (Result<void> zeros = checkPadding(pack, offset + ref.sizeBytes, next); !zeros) return zeros;
         offset = next;
     }
-    if (offset != end) return failure(pack.path().string(), "byte " + std::to_string(offset), "belongs to no node");
+    if (offset != end)
+        return failure(pack.path().string(), "byte " + std::to_string(offset), "belongs to no node");
     return {};
 }
 
@@ -106,9 +110,10 @@ Result<std::vector<std::uint8_t>> readVerified(const FileReader& pack, const Pay
     if (Result<void> read = pack.readAt(payload.offset, bytes); !read) return passOn(read);
     const std::uint64_t found = hashBytes(bytes.data(), bytes.size());
     if (found != payload.checksum) {
-        return failure(pack.path().string(), where,
-                       "checksum does not match: " + hashText(found) + " instead of " + hashText(payload.checksum),
-                       "the file is damaged: build it again");
+        return failure(
+            pack.path().string(), where,
+            "checksum does not match: " + hashText(found) + " instead of " + hashText(payload.checksum),
+            "the file is damaged: build it again");
     }
     return bytes;
 }
@@ -118,7 +123,8 @@ std::optional<BuiltBlock> reusePack(const std::filesystem::path& sceneFolder, st
     Result<FileReader> pack = FileReader::open(sceneFolder / packName(block));
     if (!pack) return std::nullopt;
     Result<PackTrailer> trailer = readPackFrame(*pack, block);
-    if (!trailer || trailer->settingsHash != settingsHash || trailer->blockHash != blockHash) return std::nullopt;
+    if (!trailer || trailer->settingsHash != settingsHash || trailer->blockHash != blockHash)
+        return std::nullopt;
     for (const BuiltNode& node : trailer->block.nodes) {
         if (!readVerified(*pack, node.payload, {})) return std::nullopt;
     }

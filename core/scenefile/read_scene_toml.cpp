@@ -1,6 +1,6 @@
+#include <toml++/toml.h>
 #include <charconv>
 #include <cmath>
-#include <toml++/toml.h>
 
 #include "scenefile/limits.h"
 #include "scenefile/scene_toml.h"
@@ -8,17 +8,22 @@
 namespace fb {
 namespace {
 
-std::string lineOf(const toml::node& node) { return "line " + std::to_string(node.source().begin.line); }
+std::string lineOf(const toml::node& node) {
+    return "line " + std::to_string(node.source().begin.line);
+}
 
-// Takes values out of one table; the first that is missing, of the wrong type or out of range becomes the error.
+// Takes values out of one table; the first that is missing, of the wrong type or out of range becomes the
+// error.
 class TableReader {
   public:
     TableReader(const toml::table& table, const std::string& what) : table_(table), what_(what) {}
 
     void text(const char* key, std::string& into) {
         if (const toml::node* node = find(key)) {
-            if (node->is_string()) into = node->as_string()->get();
-            else refuse(*node, key, "a text in quotes");
+            if (node->is_string())
+                into = node->as_string()->get();
+            else
+                refuse(*node, key, "a text in quotes");
         }
     }
     void texts(const char* key, std::vector<std::string>& into) {
@@ -76,7 +81,8 @@ class TableReader {
             if (!points) return refuse(element, key, "a table with points");
             WalkHint& hint = into.emplace_back();
             for (const toml::node& each : *points) {
-                if (!coordinates(each, hint.points.emplace_back())) return refuse(each, key, "three finite numbers in range");
+                if (!coordinates(each, hint.points.emplace_back()))
+                    return refuse(each, key, "three finite numbers in range");
             }
         }
     }
@@ -88,15 +94,19 @@ class TableReader {
     const toml::node* find(const char* key) {
         if (failed()) return nullptr;
         const toml::node* node = table_.get(key);
-        if (!node) fault_ = {Error::Kind::failed, what_, {}, std::string("\"") + key + "\" is missing", "build it again"};
+        if (!node)
+            fault_ = {
+                Error::Kind::failed, what_, {}, std::string("\"") + key + "\" is missing", "build it again"};
         return node;
     }
     void refuse(const toml::node& node, const char* key, const char* expected) {
-        fault_ = {Error::Kind::failed, what_, lineOf(node), std::string("\"") + key + "\" must be " + expected, {}};
+        fault_ = {
+            Error::Kind::failed, what_, lineOf(node), std::string("\"") + key + "\" must be " + expected, {}};
     }
     static bool number(const toml::node& node, double low, double high, double& into) {
         if (!node.is_number()) return false;
-        into = node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
+        into = node.is_integer() ? static_cast<double>(node.as_integer()->get())
+                                 : node.as_floating_point()->get();
         return into >= low && into <= high;  // false for NaN
     }
     static bool coordinates(const toml::node& node, glm::dvec3& into) {
@@ -117,7 +127,8 @@ class TableReader {
 Result<void> checkVersion(const toml::table& root, const std::string& what) {
     const toml::node* node = root.get("format");
     if (!node || !node->is_integer()) {
-        return failure(what, node ? lineOf(*node) : "", "\"format\" must be a whole number", "is it a scene?");
+        return failure(what, node ? lineOf(*node) : "", "\"format\" must be a whole number",
+                       "is it a scene?");
     }
     const std::int64_t version = node->as_integer()->get();
     if (version == kSceneFormatVersion) return {};
@@ -134,7 +145,8 @@ Result<SceneToml> parseSceneToml(std::string_view text, const std::string& what)
     try {
         root = toml::parse(text, what);
     } catch (const toml::parse_error& problem) {
-        return failure(what, "line " + std::to_string(problem.source().begin.line), std::string(problem.description()));
+        return failure(what, "line " + std::to_string(problem.source().begin.line),
+                       std::string(problem.description()));
     }
     if (Result<void> version = checkVersion(root, what); !version) return passOn(version);
     SceneToml scene;

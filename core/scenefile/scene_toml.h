@@ -1,5 +1,5 @@
-// scene.toml: what people want to know of a scene, and what the program needs beside the hierarchy (origin, up axis,
-// walk hints). Written once by writeScene(); people may edit names and walk hints.
+// scene.toml: what people want to know of a scene, and what the program needs beside the hierarchy (origin,
+// up axis, walk hints). Written once by writeScene(); people may edit names and walk hints.
 #pragma once
 
 #include <cstdint>

@@ -8,9 +8,12 @@
 namespace fb {
 namespace {
 
-// Length of the UTF-8 sequence that `text` begins with, 0 when it is none (RFC 3629: shortest form, no surrogates).
+// Length of the UTF-8 sequence that `text` begins with, 0 when it is none (RFC 3629: shortest form, no
+// surrogates).
 std::size_t utf8Length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
+    const auto byte = [&](std::size_t i) {
+        return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
+    };
     const std::uint32_t lead = byte(0);
     if (lead < 0x80) return 1;
     const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
@@ -49,7 +52,8 @@ std::string tomlString(std::string_view text) {
 
 std::string tomlReal(double value) {
     std::array<char, 40> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 17);
+    const auto end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 17);
     std::string text(digits.data(), end.ptr);
     if (text.find_first_of(".en") == std::string::npos) text += ".0";  // else TOML takes it for an integer
     return text;

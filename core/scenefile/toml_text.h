@@ -6,7 +6,8 @@
 
 namespace fb {
 
-// In quotes, escaped; bytes that are not UTF-8 (file names may hold any) become '?', else nobody could read it back.
+// In quotes, escaped; bytes that are not UTF-8 (file names may hold any) become '?', else nobody could read
+// it back.
 [[nodiscard]] std::string tomlString(std::string_view text);
 // 17 significant digits: reading it back gives the same double.
 [[nodiscard]] std::string tomlReal(double value);

@@ -54,10 +54,12 @@ Result<PayloadRef> PackWriter::append(std::span<const std::uint8_t> payload) {
     return ref;
 }
 
-Result<void> PackWriter::finish(const BuiltBlock& block, std::uint64_t settingsHash, std::uint64_t blockHash) {
+Result<void> PackWriter::finish(const BuiltBlock& block, std::uint64_t settingsHash,
+                                std::uint64_t blockHash) {
     FB_CHECK(!block.nodes.empty());
     checkOwnReferences(block, block_, file_.offset());
-    if (Result<void> written = file_.write(encodeTrailer({settingsHash, blockHash, block})); !written) return written;
+    if (Result<void> written = file_.write(encodeTrailer({settingsHash, blockHash, block})); !written)
+        return written;
     return file_.finish();
 }
 

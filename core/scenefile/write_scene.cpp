@@ -29,7 +29,8 @@ Result<void> writeScene(const std::filesystem::path& folder, const SceneInfo& in
     const std::vector<std::uint8_t> bytes = encodeHierarchyFile(file);
     const std::filesystem::path path = folder / "hierarchy.bin";
     // What a reader would refuse is not written.
-    if (Result<HierarchyFile> readable = parseHierarchyFile(bytes, path.string()); !readable) return passOn(readable);
+    if (Result<HierarchyFile> readable = parseHierarchyFile(bytes, path.string()); !readable)
+        return passOn(readable);
 
     const SceneToml about{info, hashBytes(bytes.data(), bytes.size())};
     Result<std::string> text = sceneTomlText(about, file.hierarchy);

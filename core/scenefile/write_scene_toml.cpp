@@ -82,7 +82,8 @@ Result<std::string> sceneTomlText(const SceneToml& scene, const Hierarchy& hiera
     out += "program = " + tomlString(info.program) + "\n";
     out += "name = " + tomlString(info.name) + "\n";
     out += std::string("up = ") + (info.up == UpAxis::y ? "\"y\"" : "\"z\"") + "\n";
-    out += "origin = " + tomlPoint(info.origin) + "  # added to a position of this scene gives the source's\n";
+    out +=
+        "origin = " + tomlPoint(info.origin) + "  # added to a position of this scene gives the source's\n";
     out += "bounds_min = " + tomlPoint(info.bounds.min) + "  # relative to the origin\n";
     out += "bounds_max = " + tomlPoint(info.bounds.max) + "\n";
     out += "source_triangles = " + std::to_string(info.sourceTriangles) + "\n";

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/clock.h"
 #include "base/hash.h"
 #include "load/payload_source.h"
 #include "tiny_world.h"

@@ -84,7 +84,6 @@ TEST(LoaderThread, SuspendsForAMoreUrgentNodeAndResumesWithoutReadingTwice) {
     std::uint64_t bytes = 0;
     for (const Disk::Read& read : reads) bytes += read.bytes;
     EXPECT_EQ(bytes, world.payloadBytes(1) + world.payloadBytes(3));
-    loader->publish({}, {});
     EXPECT_EQ(loader->counters().suspended, 1u);
     EXPECT_EQ(loader->counters().bytesRead, bytes);
     EXPECT_EQ(loader->counters().wastedBytes, 0u);
@@ -156,11 +155,31 @@ TEST(LoaderThread, ReadsAFinishedLoadOnceHoweverOftenItIsWishedFor) {
     const Wish rest[] = {{2, 1.0}};
     for (int frame = 0; frame < 200; ++frame) loader->publish(rest, chunksOf(50));
     EXPECT_EQ(takeNext(*loader).node, 2u);
-    loader->publish({}, {});
     EXPECT_EQ(loader->counters().bytesRead, world.payloadBytes(1) + world.payloadBytes(2));
     // And once more when it was taken, given up and is wished for again.
     loader->publish(rest, chunksOf(50));
     EXPECT_EQ(takeNext(*loader).node, 2u);
+}
+
+TEST(LoaderThread, HearsWishesAfterALongTimeWithoutAny) {
+    const PayloadWorld world = fourNodes();
+    Disk disk;
+    const std::unique_ptr<Loader> loader = startLoader(world, disk);
+    for (const NodeId node : {1u, 2u}) {
+        for (int frame = 0; frame < 100; ++frame) loader->publish({}, {});
+        const Wish wishes[] = {{node, 1.0}};
+        loader->publish(wishes, {});
+        EXPECT_EQ(takeNext(*loader).node, node);
+    }
+    // And of their end.
+    disk.closeGate();
+    const Wish wishes[] = {{3, 1.0}};
+    loader->publish(wishes, chunksOf(100));
+    disk.waitForReads(3);
+    for (int frame = 0; frame < 100; ++frame) loader->publish({}, {});
+    disk.openGate();
+    while (loader->counters().cancelled == 0) std::this_thread::yield();
+    EXPECT_EQ(disk.reads().size(), 3u);
 }
 
 TEST(LoaderThread, HoldsBackALoadThatIsLargerThanTheCap) {

@@ -313,6 +313,25 @@ TEST(PlanLoads, StopsWhatFellBehindForTheSakeOfTheWindow) {
     EXPECT_TRUE(w.refusedNodes().empty());
 }
 
+TEST(PlanLoads, CountsWhatSteppedBackAsMissingWhenTheSameGroupComesUpAgain) {
+    World w = fourGroups();
+    const std::uint32_t mebibytes[] = {1, 4, 0, 0, 3, 2, 0, 0};
+    for (NodeId n = 4; n < 12; ++n) w.hierarchy.residentBytes[n] = mebibytes[n - 4] * kMiB;
+    w.setBudget(9 * kMiB + 400);
+    w.planFrame();
+    ASSERT_EQ(w.wished(), (Nodes{4, 5, 6, 7, 10, 11})) << "5 + 5 MiB are too much";
+    for (const NodeId n : {6u, 7u, 10u, 11u}) w.deliver(n);
+    w.residency.setFailed(w.hierarchy, 4, 0.0);
+    // At 0.5 s node 4 may be tried again beside 5, which is in flight; but {8, 9} is more urgent now, needs 5
+    // MiB of the window's 8 and sends 5 back. Then {4, 5} needs 5 MiB, not 1, of the remaining 4.
+    w.nowSeconds = 0.5;
+    w.hierarchy.staticBenefit[8] = 100;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{8, 9}));
+    EXPECT_EQ(w.refusedNodes(), (Nodes{4, 5}));
+    EXPECT_EQ(w.residency.totalBytes(), 5u * kMiB + 400);
+}
+
 TEST(PlanLoads, LetsNoSmallerGroupPassOneThatWaitsForItsPlace) {
     World w = largeGroups();
     for (const NodeId n : {8u, 9u, 10u, 11u}) w.hierarchy.residentBytes[n] = 10;
@@ -472,6 +491,28 @@ TEST(PlanLoads, ForgetsRefusalsBelowWhatIsEvicted) {
     w.planFrame();
     EXPECT_EQ(w.plan.evicted, (Nodes{2}));
     EXPECT_EQ(w.refusedNodes(), (Nodes{2}));
+}
+
+TEST(PlanLoads, LoadsAndEvictsNodesOfNoBytesLikeOthers) {
+    World w({{kRoot, 1, 100}, {0, 4, 100}, {1, 2, 0}, {2, 1, 0}});
+    w.settle();
+    ASSERT_EQ(w.loadedNodes(), (Nodes{0, 1, 2, 3}));
+    w.setBudget(100);
+    w.planFrame();
+    EXPECT_EQ(w.loadedNodes(), (Nodes{0}));
+    w.setBudget(200);
+    w.planFrame();
+    w.deliverAll();
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{2}));
+    w.load.frozen = true;
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty());
+    w.load.frozen = false;
+    w.setBudget(99);
+    w.planFrame();
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty()) << "not even these while the roots are too large";
 }
 
 TEST(PlanLoads, TakesTheWholeFlightWindowFromTheBudget) {

@@ -86,6 +86,7 @@ TEST(Residency, ForgetsFailuresWhenTheNodeIsLoadedAfterAll) {
 }
 
 TEST(ResidencyDeathTest, StopsWhenAParentWouldGoBeforeItsChild) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
     World w({{kRoot, 1, 1}, {0, 1, 1}, {1, 1, 1}});
     w.residency.setResident(w.hierarchy, 1);
     w.residency.setResident(w.hierarchy, 2);

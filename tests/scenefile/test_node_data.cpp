@@ -31,8 +31,9 @@ TEST(EncodeNormal, TurnsUnknownDirectionsIntoUp) {
     }
 }
 
-// One step of the code moves a point of the octahedron by 1/32767 along two of its axes at once; seen from the centre, at
-// least 1/sqrt(3) away, half a step each way is below sqrt(3) * sqrt(6)/2 / 32767 = 6.5e-5 rad.
+// One step of the code moves a point of the octahedron by 1/32767 along two of its axes at once; seen from
+// the centre, at least 1/sqrt(3) away, half a step each way is below sqrt(3) * sqrt(6)/2 / 32767 = 6.5e-5
+// rad.
 TEST(EncodeNormal, IsOffByLessThanSevenHundredThousandthsOfARadian) {
     Random random(1);
     double worst = 0.0;
@@ -57,11 +58,12 @@ RC_GTEST_PROP(DecodeNormal, GivesAUnitVectorForAnyCode, (std::int16_t x, std::in
 
 TEST(AtlasSide, IsTheNextOfTheClasses) {
     const std::pair<std::uint32_t, std::uint32_t> table[] = {
-        {0, 4},       {1, 4},       {3, 4},         {4, 4},         {5, 6},         {6, 6},        {7, 8},
-        {8, 8},       {9, 12},      {12, 12},       {13, 16},       {16, 16},       {17, 24},      {24, 24},
-        {25, 32},     {33, 48},     {48, 48},       {49, 64},       {65, 96},       {97, 128},     {129, 192},
-        {193, 256},   {1000, 1024}, {1025, 1536},   {1537, 2048},   {4096, 4096},   {4097, 6144},  {8192, 8192},
-        {8193, 12288}, {12288, 12288}, {12289, 16384}, {16384, 16384},
+        {0, 4},         {1, 4},         {3, 4},       {4, 4},       {5, 6},        {6, 6},
+        {7, 8},         {8, 8},         {9, 12},      {12, 12},     {13, 16},      {16, 16},
+        {17, 24},       {24, 24},       {25, 32},     {33, 48},     {48, 48},      {49, 64},
+        {65, 96},       {97, 128},      {129, 192},   {193, 256},   {1000, 1024},  {1025, 1536},
+        {1537, 2048},   {4096, 4096},   {4097, 6144}, {8192, 8192}, {8193, 12288}, {12288, 12288},
+        {12289, 16384}, {16384, 16384},
     };
     for (const auto& [side, expected] : table) EXPECT_EQ(atlasSide(side), expected) << side;
 }
@@ -86,7 +88,7 @@ TEST(MipLevelCount, GoesDownToOneTexel) {
 TEST(MippedBytes, AddsUpTheLevels) {
     EXPECT_EQ(mippedBytes(1, 1), 4u);
     EXPECT_EQ(mippedBytes(4, 4), (16u + 4u + 1u) * 4u);
-    EXPECT_EQ(mippedBytes(6, 4), (24u + 6u + 1u) * 4u);            // 6x4 3x2 1x1
+    EXPECT_EQ(mippedBytes(6, 4), (24u + 6u + 1u) * 4u);              // 6x4 3x2 1x1
     EXPECT_EQ(mippedBytes(4, 16), (64u + 16u + 4u + 2u + 1u) * 4u);  // 4x16 2x8 1x4 1x2 1x1
     EXPECT_EQ(mippedBytes(0, 0), 0u);
     // 4^15 - 1 over 3 texels: more than 32 bits would wrap at, were there one more level.

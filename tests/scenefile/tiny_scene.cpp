@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -29,8 +30,12 @@ Bytes readAll(const std::filesystem::path& path) {
 }
 
 void overwrite(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    // In place: some file systems write a file to disk at once that was emptied and filled again.
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+    const auto size = static_cast<ssize_t>(bytes.size());
+    if (file < 0 || ::pwrite(file, bytes.data(), bytes.size(), 0) != size || ::ftruncate(file, size) != 0)
+        std::abort();
+    ::close(file);
 }
 
 NodeTexture makeTexture(PayloadCodec codec, std::uint16_t width, std::uint16_t height, std::uint8_t channels,
@@ -45,7 +50,8 @@ NodeTexture makeTexture(PayloadCodec codec, std::uint16_t width, std::uint16_t h
     if (channels == 2) spec.channelnames = {"Y", "A"};
     if (channels % 2 == 0) spec.alpha_channel = channels - 1;
     out->set_ioproxy(&memory);
-    if (!out->open(name, spec) || !out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !out->close()) std::abort();
+    if (!out->open(name, spec) || !out->write_image(OIIO::TypeDesc::UINT8, pixels.data()) || !out->close())
+        std::abort();
     texture.encoded = memory.buffer();
     return texture;
 }
@@ -82,7 +88,8 @@ NodeData oneTriangle(std::uint32_t at, NodeTexture texture) {
 TinyBlock tinyBlock(std::uint32_t children, NodeTexture texture) {
     TinyBlock block;
     block.nodes.push_back({oneTriangle(8, texture), 0, children, 0});
-    for (std::uint32_t i = 0; i < children; ++i) block.nodes.push_back({oneTriangle(8 * (i + 1), texture), 0, 0, 1});
+    for (std::uint32_t i = 0; i < children; ++i)
+        block.nodes.push_back({oneTriangle(8 * (i + 1), texture), 0, 0, 1});
     return block;
 }
 
@@ -133,7 +140,8 @@ BuiltBlock writePack(const std::filesystem::path& folder, std::uint32_t number, 
     for (std::size_t i = built.nodes.size(); i-- > 1;) {
         BuiltNode& parent = built.nodes[built.nodes[i].parentInBlock];
         parent.bounds.grow(built.nodes[i].bounds);
-        parent.geometricErrorMetres = std::max(parent.geometricErrorMetres, built.nodes[i].geometricErrorMetres);
+        parent.geometricErrorMetres =
+            std::max(parent.geometricErrorMetres, built.nodes[i].geometricErrorMetres);
     }
     if (!pack->finish(built, kSettingsHash, kBlockHash)) std::abort();
     return built;
@@ -147,7 +155,8 @@ SceneInfo tinyInfo() {
     return info;
 }
 
-std::vector<BuiltBlock> writeTinyScene(const std::filesystem::path& folder, const std::vector<TinyBlock>& blocks) {
+std::vector<BuiltBlock> writeTinyScene(const std::filesystem::path& folder,
+                                       const std::vector<TinyBlock>& blocks) {
     std::vector<BuiltBlock> built;
     for (const TinyBlock& block : blocks) {
         built.push_back(writePack(folder, static_cast<std::uint32_t>(built.size()), block));
@@ -155,6 +164,16 @@ std::vector<BuiltBlock> writeTinyScene(const std::filesystem::path& folder, cons
     const Result<void> written = writeScene(folder, tinyInfo(), built);
     EXPECT_TRUE(written) << lineOf(written);
     return built;
+}
+
+std::vector<std::string> faultsOf(const std::filesystem::path& folder) {
+    Result<SceneCheck> check = checkScene(folder, {});
+    return check ? check->faults : std::vector<std::string>{check.error().oneLine()};
+}
+
+std::string soleFault(const std::filesystem::path& folder) {
+    const std::vector<std::string> faults = faultsOf(folder);
+    return faults.size() == 1 ? faults[0] : std::to_string(faults.size()) + " faults";
 }
 
 }  // namespace fb::test

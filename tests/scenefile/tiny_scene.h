@@ -56,10 +56,12 @@ inline constexpr std::uint64_t kSettingsHash = 0x1111'2222'3333'4444;
 inline constexpr std::uint64_t kBlockHash = 0x5555'6666'7777'8888;
 
 // Writes the pack of one block.
-[[nodiscard]] BuiltBlock writePack(const std::filesystem::path& folder, std::uint32_t number, const TinyBlock& block);
+[[nodiscard]] BuiltBlock writePack(const std::filesystem::path& folder, std::uint32_t number,
+                                   const TinyBlock& block);
 [[nodiscard]] SceneInfo tinyInfo();
 // Packs 0, 1, … and the scene. Returns what was written.
-std::vector<BuiltBlock> writeTinyScene(const std::filesystem::path& folder, const std::vector<TinyBlock>& blocks);
+std::vector<BuiltBlock> writeTinyScene(const std::filesystem::path& folder,
+                                       const std::vector<TinyBlock>& blocks);
 
 // The error's line, or "no error".
 template <class T>
@@ -69,5 +71,10 @@ template <class T>
 [[nodiscard]] inline bool says(const std::string& line, const std::string& part) {
     return line.find(part) != std::string::npos;
 }
+
+// The faults that checkScene() finds, or the error that stops it.
+[[nodiscard]] std::vector<std::string> faultsOf(const std::filesystem::path& folder);
+// The only fault, or "N faults".
+[[nodiscard]] std::string soleFault(const std::filesystem::path& folder);
 
 }  // namespace fb::test

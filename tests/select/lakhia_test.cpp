@@ -264,19 +264,21 @@ TEST_P(FramesPerSwitch, AreThoseWorkedOut) {
     walk.state.hysteresis[1] = row.startCounter;
     walk.targetMs = 0;  // lets a share of 0 through
     walk.shareMs = row.shareMs;
-    EXPECT_EQ(walk.framesUntil(row.wanted, 10000), row.frames);
+    EXPECT_EQ(walk.framesUntil(row.wanted, 30000), row.frames);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Hysteresis, FramesPerSwitch,
     testing::Values(SwitchRow{"PrintedDownAtMinusOne", 1500, 4510, 1, 4510, 0, {0}, 6010},
+                    SwitchRow{"PrintedDownAtMinusAQuarter", 1500, 4510, 1, 4510, 0.75, {0}, 24040},
                     SwitchRow{"PrintedUpAtPlusOne", 1500, 4510, 1, -4510, 2, {1}, 3011},
                     SwitchRow{"PrintedUpAtPlusTen", 1500, 4510, 1, -4510, 11, {1}, 302},
                     SwitchRow{"PercentDownAtMinusOne", 1500, 4510, 100, 4510, 0, {0}, 61},
-                    SwitchRow{"PercentDownAtMinusAFifth", 1500, 4510, 100, 4510, 0.8, {0}, 301},
+                    SwitchRow{"PercentDownAtMinusAQuarter", 1500, 4510, 100, 4510, 0.75, {0}, 241},
                     SwitchRow{"PercentUpAtPlusOne", 1500, 4510, 100, -4510, 2, {1}, 31},
                     SwitchRow{"PercentUpAtPlusTen", 1500, 4510, 100, -4510, 11, {1}, 4},
                     SwitchRow{"RatioDownAtMinusOne", 3, 9, 1, 9, 0, {0}, 12},
+                    SwitchRow{"RatioDownAtMinusAQuarter", 3, 9, 1, 9, 0.75, {0}, 48},
                     SwitchRow{"RatioUpAtPlusOne", 3, 9, 1, -9, 2, {1}, 7},
                     SwitchRow{"RatioUpAtPlusTen", 3, 9, 1, -9, 11, {1}, 1}),
     [](const auto& row) { return std::string(row.param.name); });
