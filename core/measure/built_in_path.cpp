@@ -1,5 +1,6 @@
 #include "measure/built_in_path.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,7 +1,9 @@
 // Camera paths as TOML text, in and out.
 #include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <glm/gtc/constants.hpp>
 #include <optional>
 
 #include "base/file_io.h"
