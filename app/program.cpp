@@ -1,12 +1,150 @@
 #include "app/program.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
+
+#include "app/commands.h"
 
 namespace fb {
+namespace {
 
-int runProgram(int, char**) {
-    std::puts("frontbench " FB_VERSION);
-    return 0;
+// What to run, filled in by the command line.
+struct CommandLine {
+    BuildCommand build;
+    CityCommand city;
+    ReplayCommand replay;
+    OpenCommand open;
+    std::filesystem::path scene;
+    bool json = false;
+    ProgressStyle progress = ProgressStyle::automatic;
+    std::string presetA, presetB;
+    std::function<Result<void>()> run;
+};
+
+const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::automatic},
+                                                              {"bar", ProgressStyle::bar},
+                                                              {"lines", ProgressStyle::lines},
+                                                              {"none", ProgressStyle::none}};
+
+void addProgress(CLI::App* command, ProgressStyle& style) {
+    command->add_option("--progress", style, "How progress is shown: auto, bar, lines (for programs), none")
+        ->transform(CLI::CheckedTransformer(kProgressStyles, CLI::ignore_case).description(""));
+}
+
+void addBuild(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("build", "Import meshes (OBJ, PLY, STL, OFF, glTF, GLB) and build a scene");
+    BuildCommand& b = line.build;
+    command->add_option("INPUT", b.inputs, "Mesh files; several become several blocks")->required();
+    command->add_option("-o,--output", b.output, "The scene's folder, NAME.fbscene")->required();
+    command->add_option("--up", b.up, "Axis that points up: auto, y, z");
+    command->add_option("--split", b.split, "How a mesh becomes blocks: auto, none, grid, groups");
+    command->add_option("--block-triangles", b.blockTriangles, "Triangles that a block of the grid should have");
+    command->add_option("--texture", b.texture, "Texture for a file that names none");
+    command->add_option("--name", b.name, "The scene's name");
+    command->add_option("--set", b.sets, "Set a knob: build.NAME=VALUE");
+    addProgress(command, b.progress);
+    command->callback([&line] { line.run = [&line] { return runBuild(line.build); }; });
+}
+
+void addCity(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("city", "Make a procedural city and build it");
+    CityCommand& c = line.city;
+    command->add_option("-o,--output", c.output, "The scene's folder, NAME.fbscene")->required();
+    command->add_option("--blocks", c.blocks, "Number of blocks");
+    command->add_option("--triangles", c.triangles, "Triangles of the whole city, as in 480K or 8.95M");
+    command->add_option("--texels", c.texels, "Texels of the whole city, as in 24M");
+    command->add_option("--seed", c.seed, "Another seed makes another city");
+    command->add_option("--set", c.sets, "Set a knob: build.NAME=VALUE");
+    addProgress(command, c.progress);
+    command->callback([&line] { line.run = [&line] { return runCity(line.city); }; });
+}
+
+void addSceneCommands(CLI::App& program, CommandLine& line) {
+    CLI::App* info = program.add_subcommand("info", "Counts, sizes and errors per level, and the scene's health");
+    info->add_option("SCENE", line.scene, "A scene's folder")->required();
+    info->add_flag("--json", line.json, "As JSON");
+    info->callback([&line] { line.run = [&line] { return runInfo(line.scene, line.json); }; });
+
+    CLI::App* check = program.add_subcommand("check", "Verify every checksum and invariant of a scene");
+    check->add_option("SCENE", line.scene, "A scene's folder")->required();
+    addProgress(check, line.progress);
+    check->callback([&line] { line.run = [&line] { return runCheck(line.scene, line.progress); }; });
+}
+
+void addReplay(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("replay", "Walk a path without a window and report");
+    ReplayCommand& r = line.replay;
+    command->add_option("SCENE", r.scene, "A scene's folder; the built-in city when left out");
+    command->add_option("--path", r.path, "still walk drive fly walk-to-fly shake jump, or a .toml file");
+    command->add_option("--preset", r.preset, "A preset's name or .toml file");
+    command->add_option("--policy", r.policy, "Selection policy instead of the preset's");
+    command->add_option("--clock", r.clock, "real: measured time; model: simulated, the same on every machine");
+    command->add_option("--frames", r.frames, "Number of frames; the whole path when left out");
+    command->add_option("--size", r.size, "Size of the picture, as in 1280x720");
+    command->add_option("--set", r.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
+    command->add_option("--screenshot", r.screenshots, "Save this many frames, spread over the walk, as PNG");
+    command->add_flag("--settle", r.settle, "Load what the first view wants before the walk starts");
+    command->add_option("--out", r.out, "Folder for frames.csv, summary.json, plots and pictures")->required();
+    command->callback([&line] { line.run = [&line] { return runReplay(line.replay); }; });
+}
+
+void addKnobs(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("knobs", "Every knob: path, symbol, unit, default, range, equation, help");
+    command->add_flag("--json", line.json, "As JSON");
+    command->callback([&line] { line.run = [&line] { return runKnobs(line.json); }; });
+}
+
+void addPresets(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("presets", "Presets that ship and your own");
+    command->require_subcommand(1);
+    command->add_subcommand("list", "Names and what each is for")->callback([&line] { line.run = runPresetsList; });
+    CLI::App* show = command->add_subcommand("show", "A preset as TOML");
+    show->add_option("PRESET", line.presetA, "Name or .toml file")->required();
+    show->callback([&line] { line.run = [&line] { return runPresetsShow(line.presetA); }; });
+    CLI::App* diff = command->add_subcommand("diff", "The knobs in which two presets differ");
+    diff->add_option("FROM", line.presetA, "Name or .toml file")->required();
+    diff->add_option("TO", line.presetB, "Name or .toml file")->required();
+    diff->callback([&line] { line.run = [&line] { return runPresetsDiff(line.presetA, line.presetB); }; });
+}
+
+void addOpen(CLI::App& program, CommandLine& line) {
+    OpenCommand& o = line.open;
+    program.add_option("SCENE_OR_MESH", o.inputs, "A scene's folder or mesh files; the built-in city when left out");
+    program.add_option("--preset", o.preset, "A preset's name or .toml file");
+    program.add_option("--set", o.sets, "Set a knob: NAME=VALUE");
+    program.add_option("--size", o.size, "Size of the window, as in 1600x900");
+    program.add_option("--screenshot", o.screenshot, "Save the window as PNG after --frames frames, then quit");
+    program.add_option("--frames", o.frames, "Quit after this many frames");
+}
+
+int report(const Error& error) {
+    std::fprintf(stderr, "frontbench: %s\n", error.oneLine().c_str());
+    return error.kind == Error::Kind::usage ? 2 : 1;
+}
+
+}  // namespace
+
+int runProgram(int argumentCount, char** arguments) {
+    CLI::App program("Frontbench: a workbench around an out-of-core HLOD renderer", "frontbench");
+    program.set_version_flag("--version", "frontbench " FB_VERSION);
+    CommandLine line;
+    addOpen(program, line);
+    addBuild(program, line);
+    addCity(program, line);
+    addSceneCommands(program, line);
+    addReplay(program, line);
+    addKnobs(program, line);
+    addPresets(program, line);
+    line.run = [&line] { return runWindow(line.open); };
+    try {
+        program.parse(argumentCount, arguments);
+    } catch (const CLI::ParseError& problem) {
+        if (problem.get_exit_code() == 0) return program.exit(problem);  // --help, --version
+        return report(usageFailure({}, problem.what(), "`frontbench --help` lists commands and options").value());
+    }
+    const Result<void> done = line.run();
+    return done ? 0 : report(done.error());
 }
 
 }  // namespace fb

@@ -8,4 +8,7 @@ enum class Theme { dark, light };
 // Sets Dear ImGui's style; `scale` multiplies all sizes.
 void applyTheme(Theme theme, float scale);
 
+// DejaVu Sans with Latin, Greek and mathematical signs where it is installed, else the font that Dear ImGui brings.
+void loadFonts(float scale);
+
 }  // namespace fb

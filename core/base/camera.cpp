@@ -1,6 +1,7 @@
 #include "base/camera.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace fb {
 
@@ -25,7 +26,8 @@ bool isUsable(const Camera& camera) {
     const double norm = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
     bool finite = std::isfinite(camera.fovyRadians) && std::isfinite(camera.nearMetres) && std::isfinite(norm);
     for (int i = 0; i < 3; ++i) finite = finite && std::isfinite(camera.eye[i]);
-    return finite && std::abs(norm - 1.0) < 1e-3 && camera.fovyRadians > 0.0 && camera.nearMetres > 0.0;
+    const bool opens = camera.fovyRadians > 0.0 && camera.fovyRadians < std::numbers::pi;
+    return finite && std::abs(norm - 1.0) < 1e-3 && opens && camera.nearMetres > 0.0;
 }
 
 }  // namespace fb

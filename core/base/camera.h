@@ -24,7 +24,8 @@ struct Camera {
 // it chooses some valid orientation.
 [[nodiscard]] Camera lookAt(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
 
-// Whether every number is finite and the orientation is a unit quaternion to 1e-3.
+// Whether every number is finite, the orientation is a unit quaternion to 1e-3, and the angle of view is between 0 and
+// half a turn.
 [[nodiscard]] bool isUsable(const Camera& camera);
 
 }  // namespace fb

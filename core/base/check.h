@@ -9,7 +9,9 @@ namespace fb::detail {
 
 [[noreturn]] void checkFailed(const char* expression, const std::string& sides, const char* file, int line);
 
-// Captures the left side of a comparison so that both sides can be printed: Capture{} << a == b.
+// Captures the left side of a comparison so that both sides can be printed: Capture{} <=> a == b. The
+// operator binds tighter than the comparisons and looser than sums and products, and no compiler asks for
+// parentheses around it.
 template <class L>
 struct Left {
     const L& left;
@@ -27,11 +29,11 @@ struct Verdict {
     std::string sides;
 };
 
-#define FB_CHECK_OPERATOR(op)                                          \
-    template <class L, class R>                                        \
-    Verdict operator op(const Left<L>& l, const R& right) {            \
-        if (l.left op right) return {true, {}};                        \
-        return {false, l.sides(right)};                                \
+#define FB_CHECK_OPERATOR(op)                               \
+    template <class L, class R>                             \
+    Verdict operator op(const Left<L>& l, const R& right) { \
+        if (l.left op right) return {true, {}};             \
+        return {false, l.sides(right)};                     \
     }
 FB_CHECK_OPERATOR(==)
 FB_CHECK_OPERATOR(!=)
@@ -43,7 +45,7 @@ FB_CHECK_OPERATOR(>=)
 
 struct Capture {
     template <class L>
-    Left<L> operator->*(const L& left) const {
+    Left<L> operator<=>(const L& left) const {
         return {left};
     }
 };
@@ -52,12 +54,14 @@ template <class L>
 Verdict verdict(const Left<L>& l) {
     return {static_cast<bool>(l.left), "false"};
 }
-inline Verdict verdict(Verdict v) { return v; }
+inline Verdict verdict(Verdict v) {
+    return v;
+}
 
 }  // namespace fb::detail
 
-#define FB_CHECK(...)                                                                                    \
-    do {                                                                                                 \
-        auto fbVerdict = ::fb::detail::verdict(::fb::detail::Capture{}->*__VA_ARGS__);                   \
+#define FB_CHECK(...)                                                                                       \
+    do {                                                                                                    \
+        auto fbVerdict = ::fb::detail::verdict(::fb::detail::Capture{} <=> __VA_ARGS__);                    \
         if (!fbVerdict.holds) ::fb::detail::checkFailed(#__VA_ARGS__, fbVerdict.sides, __FILE__, __LINE__); \
     } while (false)

@@ -40,7 +40,8 @@ FileReader& FileReader::operator=(FileReader&& other) noexcept {
 Result<FileReader> FileReader::open(const std::filesystem::path& path) {
     FileReader reader;
     reader.path_ = path;
-    reader.descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    // O_NONBLOCK: opening a named pipe would wait for a writer; it changes nothing for files.
+    reader.descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (reader.descriptor_ < 0) return failure(path.string(), {}, systemReason("cannot be opened"));
     struct stat status {};
     if (::fstat(reader.descriptor_, &status) != 0) return failure(path.string(), {}, systemReason("cannot be read"));

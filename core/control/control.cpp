@@ -6,13 +6,16 @@
 namespace fb {
 namespace {
 
-constexpr double kVTimeRange = 8.0;        // v_time stays within this factor of its calibrated value
-constexpr double kSmallestScale = 0.1;     // of T - O
-constexpr double kSmallestSpan = 0.05;     // T - O counts as at least this part of T
+constexpr double kVTimeRange = 8.0;     // v_time stays within this factor of its calibrated value
+constexpr double kSmallestScale = 0.1;  // of T - O
+constexpr double kSmallestSpan = 0.05;  // T - O counts as at least this part of T
 
-double median3(double a, double b, double c) { return std::max(std::min(a, b), std::min(std::max(a, b), c)); }
+double median3(double a, double b, double c) {
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
 
-// The measurement that v_time follows: the median of the last three, so that a stall of one frame passes by (case 9).
+// The measurement that v_time follows: the median of the last three, so that a stall of one frame passes by
+// (case 9).
 double gatedMarginal(ControlState& state, bool gate, double marginalMs) {
     state.recentMarginal[state.recentCount % 3] = marginalMs;
     ++state.recentCount;
@@ -20,20 +23,19 @@ double gatedMarginal(ControlState& state, bool gate, double marginalMs) {
     return median3(state.recentMarginal[0], state.recentMarginal[1], state.recentMarginal[2]);
 }
 
-void feedBackVTime(ControlState& state, const ControlSettings& settings, const FrameFeatures& f, double actualMs) {
-    if (!(f.frontCost > 0.0) || !(actualMs > state.overheadMs)) return;
-    const double measured =
-        gatedMarginal(state, settings.medianGate, (actualMs - state.overheadMs) / f.frontCost);
-    state.vTimeMs += settings.vTimeGain * (measured - state.vTimeMs);
-    state.vTimeMs = std::clamp(state.vTimeMs, state.calibratedMs / kVTimeRange, state.calibratedMs * kVTimeRange);
+void feedBackVTime(ControlState& state, const ControlSettings& settings, double marginalMs) {
+    state.vTimeMs += settings.vTimeGain * (marginalMs - state.vTimeMs);
+    state.vTimeMs =
+        std::clamp(state.vTimeMs, state.calibratedMs / kVTimeRange, state.calibratedMs * kVTimeRange);
 }
 
-void feedBackShare(ControlState& state, const ControlSettings& settings, const FrameFeatures& f, double actualMs) {
+void feedBackShare(ControlState& state, const ControlSettings& settings, const FrameFeatures& f,
+                   double actualMs) {
     // Raised only if a fully loaded group was refused: otherwise it would wind up to its limit (case 18).
     if (actualMs < settings.shareLow * settings.targetMs && f.refusedGroups > 0) {
         state.shareScale *= 1.0 + settings.shareGain;
     } else if (actualMs > settings.shareHigh * settings.targetMs && !f.onlyRoots) {
-        state.shareScale *= 1.0 - settings.shareGain;
+        state.shareScale *= 1.0 - settings.shareDrop;
     }
     state.shareScale = std::clamp(state.shareScale, kSmallestScale, settings.shareLimit);
 }
@@ -41,7 +43,8 @@ void feedBackShare(ControlState& state, const ControlSettings& settings, const F
 }  // namespace
 
 double shareMs(const ControlState& state, const ControlSettings& settings) {
-    return state.shareScale * std::max(settings.targetMs - state.overheadMs, kSmallestSpan * settings.targetMs);
+    return state.shareScale *
+           std::max(settings.targetMs - state.overheadMs, kSmallestSpan * settings.targetMs);
 }
 
 ControlState startControl(double vTimeMs, double overheadMs) {
@@ -51,21 +54,33 @@ ControlState startControl(double vTimeMs, double overheadMs) {
     return state;
 }
 
-double estimateMs(const ControlState& state, double frontCost) { return state.overheadMs + state.vTimeMs * frontCost; }
-
-void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs) {
-    if (!std::isfinite(actualMs) || actualMs < 0.0) return;
-    if (!(features.frontCost > 0.0)) return;  // empty front: nothing moves (case 8)
-    feedBackVTime(state, settings, features, actualMs);
-    if (features.shareFeedback) feedBackShare(state, settings, features, actualMs);
-    state.infeasible = features.onlyRoots && features.estimateMs > settings.targetMs;
+double estimateMs(const ControlState& state, double frontCost) {
+    return state.overheadMs + state.vTimeMs * frontCost;
 }
 
-void FeatureRing::push(const FrameFeatures& features) { ring_[features.frame % ring_.size()] = features; }
+void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features,
+              double actualMs) {
+    if (!std::isfinite(actualMs) || actualMs < 0.0) return;
+    state.infeasible = features.onlyRoots && features.estimateMs > settings.targetMs;
+    if (!(features.frontCost > 0.0)) return;  // empty front: neither loop moves (case 8)
+    double steadyMs = actualMs;
+    if (actualMs > state.overheadMs) {  // otherwise there is no marginal time in it (case 10)
+        const double measured = (actualMs - state.overheadMs) / features.frontCost;
+        const double gated = gatedMarginal(state, settings.medianGate, measured);
+        feedBackVTime(state, settings, gated);
+        // What this front takes when nothing stalls: a stall must not move the share time either (case 9).
+        if (gated != measured) steadyMs = state.overheadMs + gated * features.frontCost;
+    }
+    if (features.shareFeedback) feedBackShare(state, settings, features, steadyMs);
+}
+
+void FeatureRing::push(const FrameFeatures& features) {
+    ring_[features.frame % ring_.size()] = features;
+}
 
 const FrameFeatures* FeatureRing::find(std::uint64_t frame) const {
     const FrameFeatures& kept = ring_[frame % ring_.size()];
-    return kept.frame == frame ? &kept : nullptr;
+    return kept.frame == frame && frame != 0 ? &kept : nullptr;  // 0 marks a place that is still empty
 }
 
 }  // namespace fb

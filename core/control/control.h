@@ -16,7 +16,7 @@ struct ControlState {
     double shareScale = 1.0;      // share time of the roots as a multiple of T - O, moved by the second loop
     bool infeasible = false;      // the roots alone take longer than the target (algorithms 5, case 17)
     std::array<double, 3> recentMarginal{};  // last measurements of (actual - O) / cost, for the median gate
-    std::uint32_t recentCount = 0;
+    std::uint64_t recentCount = 0;
 };
 
 // What must be remembered of a frame until its time is known.
@@ -38,9 +38,10 @@ struct FrameFeatures {
 [[nodiscard]] double estimateMs(const ControlState& state, double frontCost);
 
 // Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual <= O, not finite).
+// With the median gate on, the share loop sees the gated time too.
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs);
 
-// Features of the last frames, for timings that arrive late (GPU queries).
+// Features of the last 16 frames, for timings that arrive late (GPU queries). Frames count from 1.
 class FeatureRing {
   public:
     void push(const FrameFeatures& features);

@@ -1,5 +1,6 @@
 #include "effects/effects.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace fb {
@@ -33,13 +34,13 @@ constexpr std::array<EffectRow, kEffectCount> kTable = {{
      [](const SceneFacts& s, const FrameFacts&, bool on) -> std::string {
          return withNumber(on ? "normals of the nodes are coherent: %.2f >= 0.50"
                               : "normals of the nodes are incoherent: %.2f < 0.50",
-                           s.meanNormalCoherence);
+                           std::floor(100.0 * s.meanNormalCoherence) / 100.0);  // 0.499 is not 0.50
      }},
     {Effect::velocityLead, "velocity_lead", [](const EffectSettings& s) { return s.velocityLead; },
      [](const SceneFacts&, const FrameFacts& f) { return f.speedMetresPerSecond > kStandingStill; },
      [](const SceneFacts&, const FrameFacts& f, bool on) -> std::string {
          if (!on) return "camera at rest";
-         return withNumber("camera moves at %.2f m/s", f.speedMetresPerSecond);
+         return withNumber("camera moves at %.4g m/s", f.speedMetresPerSecond);
      }},
     {Effect::frustumFalloff, "frustum_falloff", [](const EffectSettings& s) { return s.frustumFalloff; },
      [](const SceneFacts&, const FrameFacts& f) { return !f.everythingLoaded; },

@@ -79,6 +79,8 @@ struct ImportReport {
     std::uint64_t weldedVertices = 0;
     std::uint64_t degenerateTriangles = 0;
     std::uint64_t duplicateTriangles = 0;
+    std::uint64_t droppedVertices = 0;       // used by no triangle that was kept
+    std::uint64_t repairedAttributes = 0;    // normals and texture coordinates that were not finite, set to 0
     std::uint64_t ignoredElements = 0;       // points, lines, faces of fewer than 3 corners
     std::vector<std::string> warnings;       // "texture wall.jpg is missing: its 120 triangles are drawn grey"
 

@@ -1,5 +1,10 @@
-// Which nodes are in memory: states, bytes, and the device that holds the content. Owned and changed by the main thread
-// alone; the loader thread never sees it.
+// Which nodes are in memory: states, bytes, and the device that holds the content (thesis 4.3, algorithms
+// section 4). Comes from the root load, then changed by planLoads and takeFinishedLoads; the selection reads
+// `loaded` and `memoryRefused`. Owned and changed by the main thread alone; the loader thread never sees it.
+//
+//   unloaded --reserve--> wanted --taken from the loader--> ready --uploaded--> resident --evicted-->
+//   unloaded wanted, ready --an error--> failedTemporarily --retried--> wanted; the fourth error in a row:
+//   failed, for good
 #pragma once
 
 #include <cstdint>
@@ -11,7 +16,13 @@
 
 namespace fb {
 
+inline constexpr double kBytesPerMiB = 1048576.0;
+
 enum class NodeState : std::uint8_t { unloaded, wanted, ready, resident, failedTemporarily, failed };
+
+// A node is tried this often; the wait after failure i (1, 2, …) is kFirstRetrySeconds * 2^(i - 1).
+inline constexpr int kLoadTries = 4;
+inline constexpr double kFirstRetrySeconds = 0.5;
 
 // Holds the content of resident nodes: the GPU, or nothing (tests, model clock without pictures).
 class NodeDevice {
@@ -28,29 +39,44 @@ class NullDevice final : public NodeDevice {
     void release(NodeId) override {}
 };
 
+// requested = completed + cancelled + failed + in flight, at any time (the roots' first load is not counted).
 struct LoadCounters {
-    std::uint64_t requested = 0, completed = 0, suspended = 0, cancelled = 0, evicted = 0, bytes = 0, failed = 0;
+    std::uint64_t requested = 0;  // reservations, retries included
+    std::uint64_t completed = 0;  // became resident
+    std::uint64_t cancelled = 0;  // requests withdrawn, whether or not the loader had begun
+    std::uint64_t failed = 0;     // tries that ended in an error
+    std::uint64_t evicted = 0;    // resident nodes given up
+    std::uint64_t suspended = 0;  // loads that stepped back for a more urgent one; the loader's count
+    std::uint64_t bytes = 0;      // read from disk; the loader's count
 };
 
 struct Residency {
     std::vector<NodeState> state;
-    std::vector<std::uint8_t> loaded;         // 1 where resident: the snapshot that the selection reads
-    std::vector<std::uint8_t> memoryRefused;  // 1 where the last plan had no room for it
+    std::vector<std::uint8_t> loaded;           // 1 where resident: the snapshot that the selection reads
+    std::vector<std::uint8_t> memoryRefused;    // 1 where the last plan had no room for it
     std::vector<std::uint32_t> loadedChildren;  // a node with loaded children is never evicted
-    std::vector<NodeId> resident;             // in no particular order
-    std::vector<NodeId> inFlight;             // wanted or ready: their bytes are reserved
-    std::vector<double> retryAtSeconds;       // failedTemporarily: not before this time
-    std::vector<std::uint8_t> failures;
+    std::vector<NodeId> resident;               // in no particular order
+    std::vector<NodeId> inFlight;         // wanted or ready: their bytes are reserved; in no particular order
+    std::vector<std::uint32_t> position;  // of a resident or in-flight node in its list: removal in O(1)
+    std::vector<double> retryAtSeconds;   // failedTemporarily: not before this time
+    std::vector<std::uint8_t> failures;   // since the node was last resident
     std::uint64_t residentBytes = 0;
-    std::uint64_t reservedBytes = 0;          // of inFlight
-    std::uint64_t peakBytes = 0;              // of residentBytes + reservedBytes
+    std::uint64_t reservedBytes = 0;  // of inFlight: what they will take when resident
+    std::uint64_t peakBytes = 0;      // of residentBytes + reservedBytes
     LoadCounters counters;
 
     void reset(const Hierarchy& hierarchy);
-    void setResident(const Hierarchy& hierarchy, NodeId node);    // from ready or unloaded; moves its bytes
-    void setUnloaded(const Hierarchy& hierarchy, NodeId node);    // evicts or gives up; counts nothing
-    void reserve(const Hierarchy& hierarchy, NodeId node);        // unloaded -> wanted
+    void setResident(const Hierarchy& hierarchy,
+                     NodeId node);  // from ready, wanted or unloaded; moves its bytes
+    void setUnloaded(const Hierarchy& hierarchy, NodeId node);  // evicts or gives up; counts nothing
+    void reserve(const Hierarchy& hierarchy, NodeId node);      // unloaded or failedTemporarily -> wanted
+    // wanted or ready -> failedTemporarily, or failed after the last try; counts nothing.
+    void setFailed(const Hierarchy& hierarchy, NodeId node, double nowSeconds);
+
     [[nodiscard]] std::uint64_t totalBytes() const { return residentBytes + reservedBytes; }
+    [[nodiscard]] bool isInFlight(NodeId node) const {
+        return state[node] == NodeState::wanted || state[node] == NodeState::ready;
+    }
 };
 
 }  // namespace fb

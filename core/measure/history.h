@@ -10,7 +10,7 @@ namespace fb {
 
 class History {
   public:
-    explicit History(std::size_t capacity = 4096) : ring_(capacity) {}
+    explicit History(std::size_t capacity = 4096) : ring_(capacity == 0 ? 1 : capacity) {}
 
     void push(const FrameRecord& record) {
         ring_[next_] = record;

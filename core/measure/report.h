@@ -10,6 +10,7 @@
 #include "effects/effects.h"
 #include "load/residency.h"
 #include "measure/frame_record.h"
+#include "measure/image_error.h"
 
 namespace fb {
 
@@ -27,17 +28,32 @@ struct ReplayReport {
         double meanUs = 0.0;
     };
     std::vector<EffectUse> effects;
+    std::optional<ImageErrorSummary> image;  // when pictures were compared with a reference
 };
 
+// Every frame counts, the first ones with their loading too: a report leaves nothing out.
+// One row a frame. A number that is not finite is an empty field; front_hash is 16 hexadecimal digits.
 [[nodiscard]] std::string framesCsv(const ReplayReport& report);
+// What the names mean beyond design section 7. Every sd is that of all values (divided by n, not n - 1).
+// - utilisation: mean of actual/target over frames with moreDetailAvailable; null where there are none
+// - over_target_pct: 100 * frames with actual > 1.1 * target / frames
+// - estimate_error_pct: of 100 * (actual - estimate) / actual over frames with actual > 0, so negative is
+//   conservative (thesis 6.3); null where there are none
+// - toggles.frames_per_toggle: frames / (up + down); null without toggles
+// - levels_share: mean over the frames with a front of the share of its nodes on each level
+// - memory.over_budget_frames: frames with resident + reserved > budget
+// - err_px: mean of err_px_mean, p95 and max of err_px_max
+// - image: see ImageErrorSummary; a figure in decibels is null where all pictures are identical
+// - front_hash: of the last frame
 [[nodiscard]] std::string summaryJson(const ReplayReport& report);
-// frames.csv, summary.json and plots/*.png, *.svg into `folder`.
+// frames.csv, summary.json and plots/*.png, *.svg into `folder`, which is made if need be.
 [[nodiscard]] Result<void> writeReport(const ReplayReport& report, const std::filesystem::path& folder);
 
 struct Distribution {
     double mean = 0, sd = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
 };
-// Percentiles by nearest rank. All 0 for no values; values that are not finite are left out.
+// Percentiles by nearest rank: the smallest value that at least p % of the values do not exceed. sd of all
+// values. All 0 for no values; values that are not finite are left out.
 [[nodiscard]] Distribution describe(std::vector<double> values);
 
 }  // namespace fb

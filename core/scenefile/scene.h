@@ -38,7 +38,7 @@ struct Scene {
     SceneInfo info;
     Hierarchy hierarchy;
     std::uint64_t sceneHash = 0;  // checksum of hierarchy.bin: names this scene in reports
-    std::vector<FileReader> packs;
+    std::vector<FileReader> packs;  // by PayloadRef::pack; numbers that no block has are not open
 };
 
 [[nodiscard]] Result<Scene> openScene(const std::filesystem::path& folder);
@@ -49,12 +49,15 @@ struct Scene {
 
 // --- Payload coding: mesh with meshoptimizer's codecs, texture as JPEG or PNG. ---
 [[nodiscard]] Result<std::vector<std::uint8_t>> encodePayload(const NodeData& node);
-// Every count is checked against the bytes left; `what` names the payload in the error.
+// Every count is checked against the bytes left; `what` names the payload in the error. Vertices and triangles come back
+// in another order (textured triangles still first) and triangles may begin with another corner.
 [[nodiscard]] Result<NodeData> parsePayload(std::span<const std::uint8_t> bytes, const std::string& what);
 // Turns it into what the renderer uploads: float positions, texture decoded, mip levels by a 2x2 box filter.
 [[nodiscard]] Result<DecodedNode> decodeNode(const NodeData& node, const BlockGrid& grid, const std::string& what);
 
 // --- Writing. One pack per block, in any order and from any thread; then the scene. ---
+// checkScene() holds these records against the payloads: the bounds contain every triangle's corners as the grid gives
+// them (grid.origin + step * coordinate, rounded to float), the area is that of the payload's triangles.
 struct BuiltNode {
     std::uint32_t parentInBlock = 0;  // index within the block, root: 0 is its own parent
     std::uint32_t childCount = 0;
@@ -91,7 +94,8 @@ class PackWriter {
                                                   std::uint64_t settingsHash, std::uint64_t blockHash);
 
 // Joins the blocks into one hierarchy and writes scene.toml, then hierarchy.bin: the scene is complete when
-// hierarchy.bin has its name.
+// hierarchy.bin has its name. The blocks' packs must be there, in ascending order; blocks without nodes are left out.
+// Bounds and program are filled in where `info` has none.
 [[nodiscard]] Result<void> writeScene(const std::filesystem::path& folder, const SceneInfo& info,
                                       const std::vector<BuiltBlock>& blocks);
 [[nodiscard]] Hierarchy joinBlocks(const std::vector<BuiltBlock>& blocks);

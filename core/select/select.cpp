@@ -30,8 +30,12 @@ bool standsInForUnseenChildren(const Hierarchy& hierarchy, const Reached& r) {
 void countSwitch(const SelectInput& input, SelectState& state, const Reached& r, SelectCounters& counters) {
     const NodeId n = r.node;
     const bool reachedBefore = state.reachedFrame[n] + 1 == input.frame && state.reachedFrame[n] != kNever;
+    if (standsInForUnseenChildren(input.hierarchy, r)) {
+        // What was drawn before stays on record; a node that came into view ahead of its children has no record yet.
+        if (reachedBefore) state.reachedFrame[n] = input.frame;
+        return;
+    }
     state.reachedFrame[n] = input.frame;
-    if (reachedBefore && standsInForUnseenChildren(input.hierarchy, r)) return;
     const bool before = state.expanded[n] != 0;
     state.expanded[n] = r.expanded ? 1 : 0;
     if (!reachedBefore || before == r.expanded) return;
@@ -78,6 +82,7 @@ const Policy& policyOf(PolicyId id) {
 
 void selectFront(const SelectInput& input, SelectState& state, Selection& selection) {
     FB_CHECK(input.loaded.size() == input.hierarchy.size());
+    FB_CHECK(input.memoryRefused.size() == input.hierarchy.size());
     FB_CHECK(state.expanded.size() == input.hierarchy.size());
     selection.clear();
     policyOf(input.settings.policy).select(input, state, selection);

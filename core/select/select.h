@@ -38,8 +38,8 @@ struct SelectInput {
 // What a policy keeps from frame to frame. Per node, valid only where the stamp says so.
 struct SelectState {
     std::vector<double> hysteresis;             // h, in double: small increments at large h vanish in float
-    std::vector<std::uint64_t> reachedFrame;    // last frame in which the selection came to this node
-    std::vector<std::uint8_t> expanded;         // and whether its children were drawn then
+    std::vector<std::uint64_t> reachedFrame;    // last frame up to which `expanded` is known without a gap
+    std::vector<std::uint8_t> expanded;         // whether its children were drawn when some of them were in view
     std::vector<std::uint64_t> toggledFrame;    // last switch, for ping-pongs
     std::vector<std::int8_t> toggledUp;
     std::vector<NodeId> queue, group;           // scratch

@@ -6,7 +6,7 @@
 namespace fb {
 namespace {
 
-Reached decide(const SelectInput& input, NodeId n, double shareMs, SelectState& state, Selection& selection) {
+Reached decideNaively(const SelectInput& input, NodeId n, double shareMs, SelectState& state, Selection& selection) {
     if (input.hierarchy.isLeaf(n)) return {n, false, BoundBy::leaf};
     gatherGroup(input, n, state, selection);
     if (state.group.empty()) return {n, false, BoundBy::leaf};  // nothing finer is in view
@@ -26,7 +26,7 @@ Reached decide(const SelectInput& input, NodeId n, double shareMs, SelectState& 
 void selectLakhiaNaive(const SelectInput& input, SelectState& state, Selection& selection) {
     gatherGroup(input, kNoNode, state, selection);
     descendBySlices(rootShare(input), state, selection,
-                    [&](NodeId n, double sliceMs) { return decide(input, n, sliceMs, state, selection); });
+                    [&](NodeId n, double sliceMs) { return decideNaively(input, n, sliceMs, state, selection); });
 }
 
 }  // namespace fb

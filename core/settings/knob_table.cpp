@@ -153,7 +153,11 @@ std::string valueLabel(const Knob& knob, double value) {
         if (value >= 0.0 && index < knob.choices.size()) return std::string(knob.choices[index]);
     }
     std::array<char, 40> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    char* const last = text.data() + text.size();
+    // The shortest text of the real 1000000 is 1e+06, which is no integer to TOML and no count to people.
+    const bool count = knob.type == KnobType::integer && value == std::floor(value) && std::abs(value) < 1e15;
+    const auto end = count ? std::to_chars(text.data(), last, static_cast<std::int64_t>(value)).ptr
+                           : std::to_chars(text.data(), last, value).ptr;
     return {text.data(), end};
 }
 

@@ -1,8 +1,8 @@
 #include "settings/preset.h"
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <cstdlib>
-#include <toml++/toml.h>
 
 #include "base/file_io.h"
 #include "settings/knob_table.h"
@@ -12,9 +12,12 @@ namespace {
 
 constexpr std::uint64_t kPresetCapBytes = 1 << 20;
 
-std::string placeOf(const toml::node& node) { return "line " + std::to_string(node.source().begin.line); }
+std::string placeOf(const toml::node& node) {
+    return "line " + std::to_string(node.source().begin.line);
+}
 
-Result<void> admitNode(Settings& settings, const std::string& path, const toml::node& node, std::string_view name) {
+Result<void> admitNode(Settings& settings, const std::string& path, const toml::node& node,
+                       std::string_view name) {
     const std::string source = std::string(name) + ": " + placeOf(node);
     const Knob* knob = findKnob(path);
     if (!knob) return setFromText(settings, path, {}, source);
@@ -26,11 +29,12 @@ Result<void> admitNode(Settings& settings, const std::string& path, const toml::
     }
     const bool number = node.is_number() && knob->type != KnobType::boolean && knob->type != KnobType::choice;
     if (number) return admit(settings, *knob, *node.value<double>(), source);
-    return failure(source, path, "has the wrong type", "it should be like " + valueText(*knob, knob->initial));
+    return failure(source, path, "has the wrong type",
+                   "it should be like " + valueText(*knob, knob->initial));
 }
 
-// Values are set without the rules between knobs, which only the whole preset must keep: the order of lines does not
-// matter then.
+// Values are set without the rules between knobs, which only the whole preset must keep: the order of lines
+// does not matter then.
 Result<void> admitGroup(Settings& settings, const std::string& group, const toml::table& values,
                         std::string_view name) {
     for (const auto& [key, node] : values) {
@@ -43,6 +47,16 @@ Result<void> admitGroup(Settings& settings, const std::string& group, const toml
         knob->set(settings, knob->get(alone));
     }
     return {};
+}
+
+// checkTogether with the line of a knob that takes part in the broken rule; one of them is in the file, for
+// the defaults keep the rules.
+Result<void> checkRules(const Settings& settings, const toml::table& root, std::string_view name) {
+    const toml::node_view<const toml::node> select = root["select"];
+    const toml::node* culprit = select["hyst_switch"].node();
+    if (!culprit) culprit = select["hyst_limit"].node();
+    return checkTogether(settings,
+                         culprit ? std::string(name) + ": " + placeOf(*culprit) : std::string(name));
 }
 
 }  // namespace
@@ -58,17 +72,22 @@ Result<Preset> parsePreset(std::string_view text, std::string_view name) {
     Preset preset;
     preset.name = std::filesystem::path(std::string(name)).stem().string();
     for (const auto& [key, node] : root) {
-        if (key.str() == "about" && node.is_string()) {
+        if (key.str() == "about") {
+            if (!node.is_string()) {
+                return failure(std::string(name) + ": " + placeOf(node), "about", "has the wrong type",
+                               "it should be a text in quotes");
+            }
             preset.about = node.as_string()->get();
-        } else if (node.is_table()) {
+        } else if (node.is_table() && std::ranges::find(knobGroups(), key.str()) != knobGroups().end()) {
             Result<void> group = admitGroup(preset.settings, std::string(key.str()), *node.as_table(), name);
             if (!group) return passOn(group);
         } else {
-            return failure(std::string(name), placeOf(node), "\"" + std::string(key.str()) + "\" is not part of a preset",
-                           "knobs stand in the table of their group: [select]");
+            return failure(std::string(name), placeOf(node),
+                           "\"" + std::string(key.str()) + "\" is not part of a preset",
+                           "knobs stand in the table of their group, as in [select]");
         }
     }
-    if (Result<void> together = checkTogether(preset.settings, name); !together) return passOn(together);
+    if (Result<void> rules = checkRules(preset.settings, root, name); !rules) return passOn(rules);
     return preset;
 }
 
@@ -77,7 +96,7 @@ std::string presetToml(const Preset& preset) {
     std::string about;
     for (char c : preset.about) {
         if (c == '"' || c == '\\') about += '\\';
-        about += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        about += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
     }
     std::string text = "about = \"" + about + "\"\n";
     for (std::string_view group : knobGroups()) {
@@ -96,10 +115,13 @@ std::string presetToml(const Preset& preset) {
 }
 
 Result<void> savePreset(const Preset& preset, const std::filesystem::path& path) {
+    const std::string text = presetToml(preset);
+    if (Result<Preset> back = parsePreset(text, path.string()); !back)
+        return passOn(back);  // `about` is no UTF-8
     if (path.has_parent_path()) {
         if (Result<void> made = makeFolder(path.parent_path()); !made) return made;
     }
-    return writeFileAtomically(path, presetToml(preset));
+    return writeFileAtomically(path, text);
 }
 
 std::filesystem::path userPresetFolder() {
@@ -119,7 +141,8 @@ std::vector<PresetFile> listPresets() {
         for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {
             if (entry.path().extension() != ".toml") continue;
             const std::string name = entry.path().stem().string();
-            const bool hidden = std::ranges::any_of(files, [&](const PresetFile& f) { return f.name == name; });
+            const bool hidden =
+                std::ranges::any_of(files, [&](const PresetFile& f) { return f.name == name; });
             if (!hidden) files.push_back({name, entry.path(), shipped});
         }
     }
@@ -136,7 +159,8 @@ Result<Preset> loadPreset(std::string_view nameOrPath) {
             known += (known.empty() ? "" : ", ") + file.name;
         }
         if (path.extension() != ".toml") {
-            return failure(std::string(nameOrPath), {}, "there is no preset of this name", "there are: " + known);
+            return failure(std::string(nameOrPath), {}, "there is no preset of this name",
+                           "there are: " + known);
         }
     }
     Result<std::vector<std::uint8_t>> bytes = readFile(path, kPresetCapBytes);

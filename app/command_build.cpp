@@ -1,0 +1,132 @@
+// `frontbench build` and `frontbench city`: a source becomes a scene folder, in a guarded child process.
+#include <cstdio>
+#include <cstdlib>
+
+#include "app/commands.h"
+#include "app/guarded_child.h"
+#include "app/option_text.h"
+#include "app/progress_display.h"
+#include "build/build_scene.h"
+#include "import/city.h"
+#include "import/import_files.h"
+
+namespace fb {
+namespace {
+
+Result<BuildSettings> buildSettings(const std::vector<std::string>& sets) {
+    Settings settings;
+    if (Result<void> taken = applySets(settings, sets); !taken) return passOn(taken);
+    return settings.build;
+}
+
+Result<ImportOptions> importOptions(const BuildCommand& command) {
+    ImportOptions options;
+    options.trianglesPerBlock = command.blockTriangles;
+    options.name = command.name;
+    if (!command.texture.empty()) options.texture = command.texture;
+    if (command.up == "y") options.up = UpAxis::y;
+    else if (command.up == "z") options.up = UpAxis::z;
+    else if (command.up != "auto") return usageFailure("--up " + command.up, "is not an axis", "auto, y or z");
+    if (command.split == "none") options.split = BlockSplit::none;
+    else if (command.split == "grid") options.split = BlockSplit::grid;
+    else if (command.split == "groups") options.split = BlockSplit::groups;
+    else if (command.split != "auto")
+        return usageFailure("--split " + command.split, "is not a way to split", "auto, none, grid or groups");
+    if (command.blockTriangles == 0) return usageFailure("--block-triangles 0", "must be at least 1");
+    return options;
+}
+
+void tell(const SourceInfo& info, const BuildReport& report, const std::filesystem::path& folder) {
+    for (const std::string& line : info.report.lines()) std::fprintf(stderr, "note: %s\n", line.c_str());
+    for (const std::string& line : report.warnings) std::fprintf(stderr, "note: %s\n", line.c_str());
+    std::fprintf(stderr, "%s: %llu triangles in %llu blocks became %llu nodes in %.1f s", folder.string().c_str(),
+                 static_cast<unsigned long long>(report.sourceTriangles),
+                 static_cast<unsigned long long>(report.blocks), static_cast<unsigned long long>(report.nodes),
+                 report.seconds);
+    if (report.reusedBlocks > 0) {
+        std::fprintf(stderr, ", %llu blocks taken over", static_cast<unsigned long long>(report.reusedBlocks));
+    }
+    if (report.stuckNodes > 0) {
+        std::fprintf(stderr, "; %llu nodes could not be simplified enough",
+                     static_cast<unsigned long long>(report.stuckNodes));
+    }
+    std::fputs("\n", stderr);
+}
+
+Result<void> buildFrom(const BlockSource& source, const BuildSettings& settings, const std::filesystem::path& output,
+                       ProgressStyle style) {
+    Result<BuildReport> report = buildScene(source, settings, output, showProgress(style));
+    endProgress(style);
+    if (!report) return passOn(report);
+    tell(source.info(), *report, output);
+    return {};
+}
+
+Result<CityOptions> cityOptions(const CityCommand& command) {
+    CityOptions options;
+    const std::pair<const std::string&, std::uint64_t*> numbers[] = {{command.blocks, &options.blocks},
+                                                                    {command.triangles, &options.triangles},
+                                                                    {command.texels, &options.texels},
+                                                                    {command.seed, &options.seed}};
+    for (const auto& [text, value] : numbers) {
+        if (text.empty()) continue;
+        const Result<std::uint64_t> count = parseCount(text);
+        if (!count) return tl::make_unexpected(count.error());
+        *value = *count;
+    }
+    return options;
+}
+
+}  // namespace
+
+Result<void> runBuild(const BuildCommand& command) {
+    Result<BuildSettings> settings = buildSettings(command.sets);
+    if (!settings) return passOn(settings);
+    Result<ImportOptions> options = importOptions(command);
+    if (!options) return passOn(options);
+    std::string what = command.inputs.front().string();
+    if (command.inputs.size() > 1) what += " and " + std::to_string(command.inputs.size() - 1) + " more";
+    return runGuarded(what, [&]() -> Result<void> {
+        auto source = importFiles(command.inputs, *options, showProgress(command.progress));
+        if (!source) return passOn(source);
+        return buildFrom(**source, *settings, command.output, command.progress);
+    });
+}
+
+Result<void> runCity(const CityCommand& command) {
+    Result<BuildSettings> settings = buildSettings(command.sets);
+    if (!settings) return passOn(settings);
+    Result<CityOptions> options = cityOptions(command);
+    if (!options) return passOn(options);
+    return runGuarded("city", [&]() -> Result<void> {
+        auto source = makeCity(*options);
+        if (!source) return passOn(source);
+        return buildFrom(**source, *settings, command.output, command.progress);
+    });
+}
+
+std::filesystem::path builtInCityFolder() {
+    std::filesystem::path cache;
+    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) {
+        cache = folder;
+    } else {
+        const char* home = std::getenv("HOME");
+        cache = std::filesystem::path(home && *home ? home : ".") / ".cache";
+    }
+    return cache / "frontbench" / ("city-" FB_VERSION ".fbscene");
+}
+
+Result<std::filesystem::path> builtInCity(ProgressStyle progress) {
+    const std::filesystem::path folder = builtInCityFolder();
+    // A scene of this version that opens is taken; anything else is built again over it.
+    if (Result<Scene> scene = openScene(folder); scene) return folder;
+    if (Result<void> made = makeFolder(folder.parent_path()); !made) return passOn(made);
+    std::fprintf(stderr, "making the built-in city in %s (once)\n", folder.string().c_str());
+    CityCommand command;
+    command.output = folder;
+    command.progress = progress;
+    if (Result<void> built = runCity(command); !built) return passOn(built);
+    return folder;
+}
+
+}  // namespace fb

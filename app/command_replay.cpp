@@ -1,0 +1,168 @@
+// `frontbench replay`: walks a path without a window and writes what was measured (design section 7).
+#include <cstdio>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/frame.h"
+#include "app/guarded_child.h"
+#include "app/option_text.h"
+#include "app/save_picture.h"
+#include "base/clock.h"
+#include "draw/offscreen_context.h"
+#include "measure/camera_path.h"
+#include "measure/report.h"
+#include "settings/knob_table.h"
+#include "settings/preset.h"
+
+namespace fb {
+namespace {
+
+constexpr double kSettleSeconds = 60.0;
+
+// What a replay needs beside the workbench; the context must be declared before the workbench that draws with it.
+struct Replay {
+    std::unique_ptr<OffscreenContext> context;
+    Workbench workbench;
+    CameraPath path;
+    glm::ivec2 size{1280, 720};
+    std::uint64_t frames = 0;
+};
+
+Result<void> readSettings(const ReplayCommand& command, Settings& settings) {
+    Result<Preset> preset = loadPreset(command.preset);
+    if (!preset) return passOn(preset);
+    settings = preset->settings;
+    std::vector<std::string> sets = command.sets;
+    if (!command.policy.empty()) sets.push_back("select.policy=" + command.policy);
+    return applySets(settings, sets);
+}
+
+Result<void> prepare(const ReplayCommand& command, Replay& replay) {
+    Workbench& w = replay.workbench;
+    if (Result<void> read = readSettings(command, w.settings); !read) return read;
+    if (command.clock != "real" && command.clock != "model") {
+        return usageFailure("--clock " + command.clock, "is not a clock", "real or model");
+    }
+    w.clock = command.clock == "real" ? ClockKind::real : ClockKind::model;
+    w.onFault = [](const Error& fault) { std::fprintf(stderr, "frontbench: %s\n", fault.oneLine().c_str()); };
+    Result<glm::ivec2> size = parseSize(command.size);
+    if (!size) return passOn(size);
+    replay.size = *size;
+    if (Result<void> made = makeFolder(command.out); !made) return made;
+
+    std::filesystem::path folder = command.scene;
+    if (folder.empty()) {
+        Result<std::filesystem::path> city = builtInCity(ProgressStyle::automatic);
+        if (!city) return passOn(city);
+        folder = *city;
+    }
+    if (w.clock == ClockKind::real || command.screenshots > 0) {
+        auto context = OffscreenContext::create();
+        if (!context) return passOn(context);
+        replay.context = std::move(*context);
+        auto renderer = Renderer::create(std::filesystem::path(FB_SOURCE_DIR) / "shaders");
+        if (!renderer) return passOn(renderer);
+        w.renderer = std::move(*renderer);
+    }
+    if (Result<void> opened = openScene(w, folder); !opened) return opened;
+    Result<CameraPath> path = loadPath(command.path, w.scene->info);
+    if (!path) return passOn(path);
+    replay.path = std::move(*path);
+    const auto whole = static_cast<std::uint64_t>(replay.path.durationSeconds() * w.settings.model.rateHz);
+    replay.frames = command.frames > 0 ? command.frames : std::max<std::uint64_t>(whole, 1);
+    return {};
+}
+
+FrameInput inputAt(const Replay& replay, double seconds) {
+    const Workbench& w = replay.workbench;
+    FrameInput input;
+    input.camera = replay.path.at(seconds);
+    input.camera.fovyRadians = glm::radians(w.settings.draw.fovyDegrees);
+    input.camera.nearMetres = w.settings.draw.nearMetres;
+    input.velocity = replay.path.velocityAt(seconds);
+    input.dtSeconds = 1.0 / w.settings.model.rateHz;
+    input.width = replay.size.x;
+    input.height = replay.size.y;
+    return input;
+}
+
+// Whether frame i of n is one of the `pictures` frames spread over the walk; the last frame always is.
+bool isPictured(std::uint64_t i, std::uint64_t frames, std::uint64_t pictures) {
+    if (pictures == 0) return false;
+    return (i + 1) * pictures / frames != i * pictures / frames;
+}
+
+void pace(SteadyClock::time_point start, double seconds) {
+    std::this_thread::sleep_until(
+        start + std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds)));
+}
+
+Result<void> walk(const ReplayCommand& command, Replay& replay) {
+    Workbench& w = replay.workbench;
+    const double stepSeconds = 1.0 / w.settings.model.rateHz;
+    watchForStop();
+    if (command.settle) settle(w, inputAt(replay, 0.0), kSettleSeconds);
+    const SteadyClock::time_point start = SteadyClock::now();
+    for (std::uint64_t i = 0; i < replay.frames; ++i) {
+        if (stopWanted()) return failure({}, "frame " + std::to_string(i), "stopped");
+        runFrame(w, inputAt(replay, static_cast<double>(i) * stepSeconds));
+        if (isPictured(i, replay.frames, command.screenshots)) {
+            char name[32];
+            std::snprintf(name, sizeof name, "frame%06llu.png", static_cast<unsigned long long>(i));
+            if (Result<void> saved = savePicture(w.renderer->readPicture(), command.out / name); !saved) return saved;
+        }
+        // The loader lives in real time: the walk must not outrun it.
+        if (w.clock == ClockKind::real) pace(start, static_cast<double>(i + 1) * stepSeconds);
+    }
+    waitForTimes(w);
+    return {};
+}
+
+std::string_view modeName(EffectMode mode) {
+    static constexpr std::string_view names[] = {"off", "on", "auto"};
+    return names[static_cast<std::size_t>(mode)];
+}
+
+ReplayReport describeWalk(const ReplayCommand& command, const Workbench& w, std::vector<FrameRecord> records) {
+    ReplayReport report;
+    report.version = FB_VERSION;
+    report.scene = w.scene->info.name;
+    report.preset = command.preset;
+    report.policy = policyOf(w.settings.select.policy).name;
+    report.path = command.path;
+    report.clock = command.clock;
+    report.device = w.clock == ClockKind::model ? "simulated" : w.renderer->deviceName();
+    report.sceneHash = w.scene->sceneHash;
+    report.settingsHash = settingsHash(w.settings);
+    report.targetMs = w.settings.control.targetMs;
+    report.levels = w.scene->hierarchy.maxLevel() + 1;
+    report.frames = std::move(records);
+    report.loads = w.residency.counters;
+    const LoaderCounters loader = w.loader->counters();
+    report.loads.suspended += loader.suspended;
+    report.loads.cancelled += loader.cancelled;
+    report.budgetBytes = budgetBytes(w.settings.load);
+    report.peakBytes = w.residency.peakBytes;
+    for (const EffectRow& row : effectTable()) {
+        report.effects.push_back({std::string(row.name), std::string(modeName(row.mode(w.settings.effects))),
+                                  w.effectFrames[static_cast<std::size_t>(row.effect)], 0.0});
+    }
+    return report;
+}
+
+}  // namespace
+
+Result<void> runReplay(const ReplayCommand& command) {
+    Replay replay;
+    if (Result<void> ready = prepare(command, replay); !ready) return ready;
+    std::vector<FrameRecord> records;
+    records.reserve(replay.frames);
+    replay.workbench.onRecord = [&records](const FrameRecord& record) { records.push_back(record); };
+    if (Result<void> walked = walk(command, replay); !walked) return walked;
+    const ReplayReport report = describeWalk(command, replay.workbench, std::move(records));
+    if (Result<void> written = writeReport(report, command.out); !written) return written;
+    std::printf("%s\n", (command.out / "summary.json").string().c_str());
+    return {};
+}
+
+}  // namespace fb

@@ -1,0 +1,73 @@
+// The commands of the command line: each a struct of its options and a function that runs it. Errors come back as
+// values; program.cpp prints them as one line and picks the exit code.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace fb {
+
+enum class ProgressStyle { automatic, bar, lines, none };
+
+struct BuildCommand {
+    std::vector<std::filesystem::path> inputs;
+    std::filesystem::path output;
+    std::string up = "auto";
+    std::string split = "auto";
+    std::uint64_t blockTriangles = 40000;
+    std::string texture;
+    std::string name;
+    std::vector<std::string> sets;  // --set build.k=v
+    ProgressStyle progress = ProgressStyle::automatic;
+};
+[[nodiscard]] Result<void> runBuild(const BuildCommand& command);
+
+struct CityCommand {
+    std::filesystem::path output;
+    std::string blocks, triangles, texels, seed;  // numbers with K, M or G; empty: the default
+    std::vector<std::string> sets;
+    ProgressStyle progress = ProgressStyle::automatic;
+};
+[[nodiscard]] Result<void> runCity(const CityCommand& command);
+// The built-in city's folder in the user's cache; made there first when it is missing.
+[[nodiscard]] Result<std::filesystem::path> builtInCity(ProgressStyle progress);
+[[nodiscard]] std::filesystem::path builtInCityFolder();
+
+[[nodiscard]] Result<void> runInfo(const std::filesystem::path& scene, bool json);
+[[nodiscard]] Result<void> runCheck(const std::filesystem::path& scene, ProgressStyle progress);
+
+[[nodiscard]] Result<void> runKnobs(bool json);
+[[nodiscard]] Result<void> runPresetsList();
+[[nodiscard]] Result<void> runPresetsShow(const std::string& name);
+[[nodiscard]] Result<void> runPresetsDiff(const std::string& from, const std::string& to);
+
+struct ReplayCommand {
+    std::filesystem::path scene;  // empty: the built-in city
+    std::string path = "walk-to-fly";
+    std::string preset = "default";
+    std::string policy;  // empty: the preset's
+    std::string clock = "real";
+    std::uint64_t frames = 0;  // 0: the whole path
+    std::string size = "1280x720";
+    std::vector<std::string> sets;
+    std::filesystem::path out;
+    std::uint32_t screenshots = 0;  // pictures spread over the walk
+    bool settle = false;            // load what the first view wants before the walk starts
+};
+[[nodiscard]] Result<void> runReplay(const ReplayCommand& command);
+
+struct OpenCommand {
+    std::vector<std::filesystem::path> inputs;  // one scene, or meshes to build; empty: the built-in city
+    std::string preset = "default";
+    std::vector<std::string> sets;
+    std::string size = "1600x900";
+    std::filesystem::path screenshot;  // save the window there after `frames` frames and quit
+    std::uint64_t frames = 0;
+};
+[[nodiscard]] Result<void> runWindow(const OpenCommand& command);
+
+}  // namespace fb

@@ -1,0 +1,21 @@
+// Texts of command-line options that several commands share, turned into values; errors are usage errors.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "settings/settings.h"
+
+namespace fb {
+
+// "NAME=VALUE" each, through the knob gate; the order does not matter for rules between knobs.
+[[nodiscard]] Result<void> applySets(Settings& settings, const std::vector<std::string>& sets);
+// "1280x720", each side from 1 to 16384.
+[[nodiscard]] Result<glm::ivec2> parseSize(const std::string& text);
+// "480000", "480K", "8.95M", "1G".
+[[nodiscard]] Result<std::uint64_t> parseCount(const std::string& text);
+
+}  // namespace fb

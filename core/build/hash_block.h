@@ -1,0 +1,18 @@
+// Names a block's content and the way it is built, so that a build can tell which packs of an earlier one still hold.
+#pragma once
+
+#include "import/source_scene.h"
+#include "settings/settings.h"
+
+namespace fb {
+
+// Raised whenever the same source and settings give other nodes than before.
+inline constexpr std::uint64_t kBuilderVersion = 1;
+
+// Of every knob of the group "build", and of kBuilderVersion.
+[[nodiscard]] std::uint64_t hashBuildSettings(const BuildSettings& settings);
+
+// Of meshes, materials and textures; texture files count with what is in them.
+[[nodiscard]] std::uint64_t hashBlock(const SourceBlock& block);
+
+}  // namespace fb

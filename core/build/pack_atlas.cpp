@@ -1,0 +1,88 @@
+#include "build/pack_atlas.h"
+
+#include <stb/stb_rect_pack.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "scenefile/node_data.h"
+
+namespace fb {
+namespace {
+
+// Every size of the classes that could hold the charts, smallest area first, then the squarest.
+std::vector<AtlasSize> candidates(std::span<const Chart> charts, int maxSide) {
+    int width = 1, height = 1;
+    std::int64_t texels = 0;
+    for (const Chart& chart : charts) {
+        width = std::max(width, chart.width);
+        height = std::max(height, chart.height);
+        texels += std::int64_t{chart.width + 2 * kGutter} * (chart.height + 2 * kGutter);
+    }
+    const auto classes = [&](int least) {
+        std::vector<int> sides;
+        for (auto side = atlasSide(static_cast<std::uint32_t>(least)); side <= static_cast<std::uint32_t>(maxSide);
+             side = atlasSide(side + 1)) {
+            sides.push_back(static_cast<int>(side));
+        }
+        return sides;
+    };
+    std::vector<AtlasSize> sizes;
+    for (const int w : classes(width)) {
+        for (const int h : classes(height)) {
+            if (std::int64_t{w + 2 * kGutter} * (h + 2 * kGutter) >= texels) sizes.push_back({w, h});
+        }
+    }
+    const auto rank = [](const AtlasSize& s) {
+        return std::tuple(std::int64_t{s.width} * s.height, std::max(s.width, s.height), s.width);
+    };
+    std::sort(sizes.begin(), sizes.end(), [&](const AtlasSize& a, const AtlasSize& b) { return rank(a) < rank(b); });
+    return sizes;
+}
+
+bool packInto(std::span<Chart> charts, const AtlasSize& size, std::vector<stbrp_rect>& rects,
+              std::vector<stbrp_node>& nodes) {
+    // Gutters may hang over the atlas's edge, hence the larger target and the shift by kGutter.
+    const int width = size.width + 2 * kGutter, height = size.height + 2 * kGutter;
+    rects.clear();
+    for (std::size_t i = 0; i < charts.size(); ++i) {
+        stbrp_rect rect{};
+        rect.id = static_cast<int>(i);
+        rect.w = charts[i].width + 2 * kGutter;
+        rect.h = charts[i].height + 2 * kGutter;
+        rects.push_back(rect);
+    }
+    nodes.resize(static_cast<std::size_t>(width));
+    stbrp_context context;
+    stbrp_init_target(&context, width, height, nodes.data(), width);
+    if (stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size())) == 0) return false;
+    // Which of several charts of one size gets which place depends on the C library's sort; order them ourselves.
+    std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> places;
+    for (const stbrp_rect& rect : rects) places[{rect.w, rect.h}].emplace_back(-rect.y, -rect.x);
+    for (auto& [sides, free] : places) std::sort(free.begin(), free.end());
+    for (Chart& chart : charts) {
+        auto& free = places[{chart.width + 2 * kGutter, chart.height + 2 * kGutter}];
+        chart.x = -free.back().second;
+        chart.y = -free.back().first;
+        free.pop_back();
+    }
+    return true;
+}
+
+}  // namespace
+
+bool packAtlas(std::span<Chart> charts, int maxSide, AtlasSize& size) {
+    std::vector<stbrp_rect> rects;
+    std::vector<stbrp_node> nodes;
+    for (const AtlasSize& candidate : candidates(charts, maxSide)) {
+        if (!packInto(charts, candidate, rects, nodes)) continue;
+        size = candidate;
+        return true;
+    }
+    return false;
+}
+
+}  // namespace fb

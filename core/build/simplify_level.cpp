@@ -1,0 +1,238 @@
+#include "build/simplify_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/check.h"
+#include "build/simplify_mesh.h"
+
+namespace fb {
+namespace {
+
+// A piece of few triangles keeps this many: fewer save nothing and show.
+constexpr std::size_t kSmallestAim = 4;
+// The first step stops at this many times the sum of the aims: the second then has something left to balance between
+// pieces, while cuts are as coarse as what surrounds them.
+constexpr std::size_t kJointSlack = 2;
+
+struct TaggedTriangle {
+    glm::uvec3 ids;  // wedges or positions
+    std::uint32_t piece;
+};
+
+// Input of a simplifier together with what its vertices are.
+struct Task {
+    SimplifyInput input;
+    std::vector<std::uint32_t> ids;     // by vertex: wedge or position
+    std::vector<std::uint32_t> pieces;  // by vertex
+};
+
+// Numbers given to ids, again and again from the start without clearing a table.
+class Numbering {
+  public:
+    explicit Numbering(std::size_t ids) : numbers_(ids, 0), stamps_(ids, 0) {}
+
+    void restart() { ++stamp_; }
+    // The number of `id` since the last restart, or kNone and `next` from now on.
+    std::uint32_t findOrSet(std::uint32_t id, std::uint32_t next) {
+        if (stamps_[id] == stamp_) return numbers_[id];
+        stamps_[id] = stamp_;
+        numbers_[id] = next;
+        return kNone;
+    }
+
+  private:
+    std::vector<std::uint32_t> numbers_, stamps_;
+    std::uint32_t stamp_ = 0;
+};
+
+enum class Seams : std::uint8_t { kept, welded };
+enum class Cuts : std::uint8_t { seams, locked };
+
+class LevelSimplifier {
+  public:
+    LevelSimplifier(const BlockMesh& mesh, const Level& level, Simplifier simplifier)
+        : mesh_(mesh),
+          level_(level),
+          simplifier_(simplifier),
+          vertices_(std::max(mesh.wedges.size(), mesh.positions.size())),
+          places_(mesh.positions.size()) {}
+
+    std::vector<SimplifiedPiece> run(std::span<const std::size_t> aims) {
+        const std::size_t pieces = level_.pieces.size();
+        Seams seams = Seams::kept;
+        std::vector<std::vector<glm::uvec3>> joint(pieces);
+        double jointError = 0.0;
+        std::uint64_t jointCarried = 0;
+        const std::size_t jointAim = kJointSlack * std::accumulate(aims.begin(), aims.end(), std::size_t{0});
+        if (pieces > 1 && level_.triangles.size() > jointAim) {
+            Joint result = simplifyTogether(Seams::kept, jointAim);
+            if (isStuck(result.triangles.size(), jointAim)) {
+                Joint welded = simplifyTogether(Seams::welded, jointAim);
+                if (welded.triangles.size() < result.triangles.size()) {
+                    seams = Seams::welded;
+                    result = std::move(welded);
+                }
+            }
+            for (const TaggedTriangle& t : result.triangles) joint[t.piece].push_back(t.ids);
+            jointError = result.errorGridUnits;
+            jointCarried = result.carriedTriangles;
+        } else {
+            for (std::size_t i = 0; i < pieces; ++i) joint[i] = original(i, Seams::kept);
+        }
+        std::vector<SimplifiedPiece> result(pieces);
+        for (std::size_t i = 0; i < pieces; ++i) {
+            result[i] = simplifyAlone(i, joint[i], seams, aims[i]);
+            if (!joint[i].empty()) result[i].errorGridUnits += jointError;
+        }
+        if (pieces > 0) result[0].carriedTriangles += jointCarried;
+        return result;
+    }
+
+  private:
+    struct Joint {
+        std::vector<TaggedTriangle> triangles;
+        double errorGridUnits = 0.0;
+        std::uint64_t carriedTriangles = 0;
+    };
+
+    static bool isStuck(std::size_t triangles, std::size_t aim) {
+        return static_cast<double>(triangles) > kStuckFactor * static_cast<double>(aim);
+    }
+
+    [[nodiscard]] SimplifyOutput simplify(const SimplifyInput& input) const {
+        return simplifier_ == Simplifier::openMesh ? simplifyWithOpenMesh(input) : simplifyWithMeshoptimizer(input);
+    }
+
+    [[nodiscard]] std::uint32_t positionOf(std::uint32_t id, Seams seams) const {
+        return seams == Seams::kept ? mesh_.wedges[id].position : id;
+    }
+
+    // The piece's triangles before simplification.
+    [[nodiscard]] std::vector<glm::uvec3> original(std::size_t piece, Seams seams) const {
+        std::vector<glm::uvec3> result;
+        for (std::uint32_t t = level_.pieces[piece].begin; t < level_.pieces[piece].end; ++t) {
+            result.push_back(level_.triangles[t].wedges);
+        }
+        if (seams == Seams::welded) weld(result);
+        return result;
+    }
+
+    void weld(std::vector<glm::uvec3>& triangles) const {
+        for (glm::uvec3& t : triangles) {
+            for (int k = 0; k < 3; ++k) t[k] = mesh_.wedges[t[k]].position;
+        }
+    }
+
+    // `triangles` in the order of their pieces.
+    [[nodiscard]] Task makeTask(const std::vector<TaggedTriangle>& triangles, Seams seams, Cuts cuts) {
+        Task task;
+        places_.restart();
+        std::uint32_t placeCount = 0, piece = kNone;
+        for (const TaggedTriangle& triangle : triangles) {
+            if (triangle.piece != piece) vertices_.restart();
+            piece = triangle.piece;
+            glm::uvec3 local;
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t id = triangle.ids[k];
+                const auto next = static_cast<std::uint32_t>(task.ids.size());
+                local[k] = vertices_.findOrSet(id, next);
+                if (local[k] != kNone) continue;
+                local[k] = next;
+                const std::uint32_t position = positionOf(id, seams);
+                std::uint32_t place = places_.findOrSet(position, placeCount);
+                if (place == kNone) place = placeCount++;
+                task.ids.push_back(id);
+                task.pieces.push_back(triangle.piece);
+                task.input.points.emplace_back(mesh_.positions[position]);
+                task.input.places.push_back(place);
+                task.input.locked.push_back(cuts == Cuts::locked ? mesh_.onCut[position] : std::uint8_t{0});
+            }
+            task.input.triangles.push_back(local);
+        }
+        return task;
+    }
+
+    [[nodiscard]] Joint simplifyTogether(Seams seams, std::size_t aim) {
+        std::vector<TaggedTriangle> all;
+        all.reserve(level_.triangles.size());
+        for (std::size_t i = 0; i < level_.pieces.size(); ++i) {
+            for (const glm::uvec3& ids : original(i, seams)) all.push_back({ids, static_cast<std::uint32_t>(i)});
+        }
+        Task task = makeTask(all, seams, Cuts::seams);
+        task.input.targetTriangles = aim;
+        const SimplifyOutput output = simplify(task.input);
+        Joint joint{{}, output.errorGridUnits, output.carriedTriangles};
+        for (const glm::uvec3& t : output.triangles) {
+            joint.triangles.push_back({{task.ids[t.x], task.ids[t.y], task.ids[t.z]}, task.pieces[t.x]});
+        }
+        return joint;
+    }
+
+    [[nodiscard]] SimplifiedPiece simplifyOnce(const std::vector<glm::uvec3>& triangles, Seams seams, std::size_t aim,
+                                               bool sloppy) {
+        std::vector<TaggedTriangle> tagged;
+        tagged.reserve(triangles.size());
+        for (const glm::uvec3& ids : triangles) tagged.push_back({ids, 0});
+        Task task = makeTask(tagged, seams, Cuts::locked);
+        task.input.targetTriangles = aim;
+        const SimplifyOutput output = sloppy ? simplifySloppily(task.input) : simplify(task.input);
+        SimplifiedPiece result;
+        result.welded = seams == Seams::welded;
+        result.errorGridUnits = output.errorGridUnits;
+        result.carriedTriangles = output.carriedTriangles;
+        for (const glm::uvec3& t : output.triangles) {
+            const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);
+            if (!isDegenerate(mesh_.positions[positionOf(ids.x, seams)], mesh_.positions[positionOf(ids.y, seams)],
+                              mesh_.positions[positionOf(ids.z, seams)])) {
+                result.triangles.push_back(ids);
+            }
+        }
+        return result;
+    }
+
+    [[nodiscard]] SimplifiedPiece simplifyAlone(std::size_t piece, std::vector<glm::uvec3> start, Seams seams,
+                                                std::size_t aim) {
+        if (start.empty()) {  // the first step collapsed all of it
+            start = original(piece, Seams::kept);
+            seams = Seams::kept;
+        }
+        SimplifiedPiece best;
+        best.triangles = start;
+        best.welded = seams == Seams::welded;
+        const auto attempt = [&](Seams how, bool sloppy) {
+            if (best.triangles.size() <= aim) return;
+            SimplifiedPiece next = simplifyOnce(start, how, aim, sloppy);
+            if (!next.triangles.empty() && next.triangles.size() < best.triangles.size()) best = std::move(next);
+        };
+        attempt(seams, false);
+        if (isStuck(best.triangles.size(), aim)) {
+            if (seams == Seams::kept) weld(start);
+            attempt(Seams::welded, false);
+            if (isStuck(best.triangles.size(), aim)) attempt(Seams::welded, true);
+        }
+        best.stuck = isStuck(best.triangles.size(), aim);
+        return best;
+    }
+
+    const BlockMesh& mesh_;
+    const Level& level_;
+    Simplifier simplifier_;
+    Numbering vertices_, places_;
+};
+
+}  // namespace
+
+std::size_t simplificationAim(std::size_t triangles, double factor) {
+    const double aim = std::ceil(static_cast<double>(triangles) / factor);
+    return std::max(static_cast<std::size_t>(aim), std::min(triangles, kSmallestAim));
+}
+
+std::vector<SimplifiedPiece> simplifyLevel(const BlockMesh& mesh, const Level& level, std::span<const std::size_t> aims,
+                                           Simplifier simplifier) {
+    FB_CHECK(aims.size() == level.pieces.size());
+    return LevelSimplifier(mesh, level, simplifier).run(aims);
+}
+
+}  // namespace fb

@@ -1,0 +1,35 @@
+// Simplifies the pieces of one level from the original, each to its own aim (thesis 3.2).
+// Comes from split_mesh; finish_node dresses the result with attributes.
+// Two steps. First all pieces of the level together, to some more than they may have: cutting planes are seams there,
+// so both sides of a cut are simplified alike, and pieces of one level always meet exactly. Then each piece alone, with
+// the vertices on cutting planes locked. Where texture seams hinder, they are welded and colours carried over later;
+// where even that misses the aim by more than half, vertices are clustered.
+#pragma once
+
+#include <span>
+
+#include "build/block_mesh.h"
+#include "settings/settings.h"
+
+namespace fb {
+
+// More than this many times its aim: a piece is stuck.
+inline constexpr double kStuckFactor = 1.5;
+
+struct SimplifiedPiece {
+    // Triangles of wedges; or, when seams were welded, of positions.
+    std::vector<glm::uvec3> triangles;
+    bool welded = false;
+    bool stuck = false;
+    double errorGridUnits = 0.0;  // the simplifier's estimate, both steps added
+    std::uint64_t carriedTriangles = 0;
+};
+
+// Triangles that a piece of `triangles` should have at `factor`.
+[[nodiscard]] std::size_t simplificationAim(std::size_t triangles, double factor);
+
+// One result per piece; never without triangles. `aims` by piece.
+[[nodiscard]] std::vector<SimplifiedPiece> simplifyLevel(const BlockMesh& mesh, const Level& level,
+                                                         std::span<const std::size_t> aims, Simplifier simplifier);
+
+}  // namespace fb

@@ -1,0 +1,100 @@
+// Finds the closest point of a set of triangles: a tree of boxes, built once per node or piece.
+// Used to measure geometric errors and to carry colours from the original to a simplified mesh.
+// Deterministic: of equally close triangles the one met first in the tree is taken, and the tree depends on the
+// triangles alone.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/bounds.h"
+
+namespace fb {
+
+using TriangleCorners = std::array<glm::vec3, 3>;
+
+struct ClosestPoint {
+    std::uint32_t triangle = ~std::uint32_t{0};  // none
+    glm::vec3 weights{0.0f};                     // of its corners, adding to 1
+    float squaredDistance = std::numeric_limits<float>::infinity();
+};
+
+// The point of the triangle closest to `p` (Ericson 2005, Real-Time Collision Detection, 5.1.5).
+[[nodiscard]] ClosestPoint closestOnTriangle(const glm::vec3& p, const TriangleCorners& corners);
+
+class TriangleTree {
+  public:
+    explicit TriangleTree(std::vector<TriangleCorners> triangles);
+
+    [[nodiscard]] std::span<const TriangleCorners> triangles() const { return triangles_; }
+
+    // The closest point of the triangles that `accepts(index)` admits, if closer than `best`; else `best`. Stops at the
+    // first one not farther than `goodEnough` (squared).
+    template <class Accepts>
+    [[nodiscard]] ClosestPoint closest(const glm::vec3& p, ClosestPoint best, float goodEnough, Accepts&& accepts) const;
+    [[nodiscard]] ClosestPoint closest(const glm::vec3& p) const {
+        return closest(p, {}, -1.0f, [](std::uint32_t) { return true; });
+    }
+    // Distance of `p` to triangle `index`, as a start for closest().
+    [[nodiscard]] ClosestPoint closestOn(std::uint32_t index, const glm::vec3& p) const {
+        ClosestPoint result = closestOnTriangle(p, triangles_[index]);
+        result.triangle = index;
+        return result;
+    }
+
+  private:
+    struct Node {
+        Box3f box;
+        std::uint32_t first = 0;  // leaf: into order_; inner node: its second child (the first one follows it)
+        std::uint32_t count = 0;  // 0 for inner nodes
+    };
+    static constexpr std::uint32_t kLeafSize = 4;
+
+    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+    [[nodiscard]] static float squaredDistance(const Box3f& box, const glm::vec3& p) {
+        const glm::vec3 d = glm::max(glm::max(box.min - p, p - box.max), glm::vec3(0.0f));
+        return glm::dot(d, d);
+    }
+
+    std::vector<TriangleCorners> triangles_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+template <class Accepts>
+ClosestPoint TriangleTree::closest(const glm::vec3& p, ClosestPoint best, float goodEnough, Accepts&& accepts) const {
+    if (nodes_.empty()) return best;
+    struct Entry {
+        std::uint32_t node;
+        float squaredDistance;
+    };
+    std::array<Entry, 64> stack;  // the tree halves: never deeper than 32
+    std::size_t size = 0;
+    stack[size++] = {0, squaredDistance(nodes_[0].box, p)};
+    while (size > 0) {
+        const Entry entry = stack[--size];
+        if (entry.squaredDistance >= best.squaredDistance) continue;
+        const Node& node = nodes_[entry.node];
+        if (node.count == 0) {
+            Entry near{entry.node + 1, squaredDistance(nodes_[entry.node + 1].box, p)};
+            Entry far{node.first, squaredDistance(nodes_[node.first].box, p)};
+            if (far.squaredDistance < near.squaredDistance) std::swap(near, far);
+            if (far.squaredDistance < best.squaredDistance) stack[size++] = far;
+            if (near.squaredDistance < best.squaredDistance) stack[size++] = near;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            if (!accepts(order_[i])) continue;
+            const ClosestPoint candidate = closestOn(order_[i], p);
+            if (candidate.squaredDistance < best.squaredDistance) best = candidate;
+            if (best.squaredDistance <= goodEnough) return best;
+        }
+    }
+    return best;
+}
+
+}  // namespace fb

@@ -1,0 +1,59 @@
+#include "import/city_block.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/check.h"
+#include "import/city_paint.h"
+
+namespace fb::city {
+namespace {
+
+constexpr glm::vec4 kUnphotographed{0.56f, 0.56f, 0.56f, 1.0f};
+
+std::uint32_t addPicture(SourceBlock& block, const std::string& name, Image&& image) {
+    block.textures.push_back({name, {}, {}, std::make_shared<const Image>(std::move(image))});
+    block.materials.push_back({name, glm::vec4(1.0f), static_cast<int>(block.textures.size()) - 1, false});
+    return static_cast<std::uint32_t>(block.materials.size() - 1);
+}
+
+}  // namespace
+
+SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& budget,
+                      const std::string& name) {
+    const UnitDesign design = designUnit(plan, unit);
+    const std::span<const Thing> things(design.things.data(), budget.things);
+    SourceBlock block;
+    block.name = name;
+    block.materials.push_back({"without photographs", kUnphotographed, -1, false});
+    constexpr std::uint32_t kGrey = 0;
+
+    MeshBuilder mesh;
+    mesh.reserve(budget.triangles);
+    for (std::size_t i = 0; i < design.facades.size(); ++i) {
+        const Facade& facade = design.facades[i];
+        const Detail detail = detailOf(facade, budget);
+        const FacadeGrid features = featureGrid(facade, detail);
+        std::uint32_t material = kGrey;
+        if (!budget.grey[i]) {
+            const PictureSize size = facadePictureSize(facade, features, budget.texelsPerMetre);
+            material =
+                addPicture(block, "facade " + std::to_string(i + 1), paintFacade(facade, features, size));
+        }
+        const FacadeGrid grid =
+            fillGrid(features, budget.spacing * spacingFactor(facade.role), facade.seed + 9);
+        addFacade(facade, grid, detail, material, !budget.grey[i], mesh);
+    }
+    const PictureSize size = aerialPictureSize(unit, budget.texelsPerMetre);
+    const std::uint32_t aerial = addPicture(block, "from above", paintAerial(plan, unit, things, size));
+    addGround(plan, unit, design.ground, budget.spacing * kGroundSpacingFactor, aerial, mesh);
+    for (const Building& building : unit.buildings) {
+        addRoof(unit, building, budget.spacing * kRoofSpacingFactor, aerial, mesh);
+    }
+    for (const Thing& thing : things) addThing(thing, budget.thingSpacing, kGrey, mesh);
+    block.mesh = mesh.finish();
+    FB_CHECK(block.mesh.triangles.size() == budget.triangles);
+    return block;
+}
+
+}  // namespace fb::city

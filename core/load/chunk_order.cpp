@@ -1,0 +1,67 @@
+#include "load/chunk_order.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+
+namespace fb {
+
+std::uint64_t chunkBytes(const LoadSettings& settings) {
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(settings.chunkKiB * 1024.0));
+}
+
+void ChunkOrder::adopt(std::vector<Wish>& wishes) {
+    const NodeId underWay = current_ == kNone ? kNoNode : wishes_[current_].node;
+    wishes_.swap(wishes);
+    first_ = 0;
+    current_ = kNone;
+    for (std::size_t i = 0; i < wishes_.size() && underWay != kNoNode; ++i) {
+        if (wishes_[i].node == underWay) current_ = i;
+    }
+    std::erase_if(started_, [this](const StartedLoad& load) {
+        if (isWished(load.node)) return false;
+        ++counters_.cancelled;
+        counters_.wastedBytes += load.filledBytes;
+        return true;
+    });
+}
+
+bool ChunkOrder::hasWork() {
+    while (first_ < wishes_.size() && wishes_[first_].node == kNoNode) ++first_;
+    return first_ < wishes_.size();
+}
+
+StartedLoad& ChunkOrder::choose() {
+    FB_CHECK(hasWork());
+    if (current_ == kNone || wishes_[current_].priority < wishes_[first_].priority) {
+        if (current_ != kNone) ++counters_.suspended;
+        current_ = first_;
+    }
+    const NodeId node = wishes_[current_].node;
+    if (StartedLoad* load = findStarted(node)) return *load;
+    started_.push_back({node, 0, {}});
+    return started_.back();
+}
+
+bool ChunkOrder::isWished(NodeId node) const {
+    return std::any_of(wishes_.begin(), wishes_.end(),
+                       [node](const Wish& wish) { return wish.node == node; });
+}
+
+void ChunkOrder::finish(NodeId node) {
+    std::erase_if(started_, [node](const StartedLoad& load) { return load.node == node; });
+    for (std::size_t i = first_; i < wishes_.size(); ++i) {
+        if (wishes_[i].node != node) continue;
+        wishes_[i].node = kNoNode;
+        if (current_ == i) current_ = kNone;
+    }
+}
+
+StartedLoad* ChunkOrder::findStarted(NodeId node) {
+    for (StartedLoad& load : started_) {
+        if (load.node == node) return &load;
+    }
+    return nullptr;
+}
+
+}  // namespace fb

@@ -1,0 +1,68 @@
+// The bounded queue of finished loads between a loader and the main thread, oldest first, and the marks by
+// which finished loads and wishes are held against each other. No locks here: the owner says who may call
+// what.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "load/loader.h"
+
+namespace fb {
+
+class FinishedQueue {
+  public:
+    static constexpr std::size_t kCapacity = 64;
+    static constexpr std::uint64_t kCapacityBytes = std::uint64_t{32} << 20;  // exceeded by one load at most
+
+    struct Entry {
+        FinishedLoad load;
+        std::uint64_t residentBytes = 0;  // 0 for a failed load
+        std::uint64_t payloadBytes = 0;   // read from disk for it
+    };
+
+    FinishedQueue() : ring_(kCapacity) {}
+
+    [[nodiscard]] bool empty() const { return count_ == 0; }
+    [[nodiscard]] bool hasRoom() const { return count_ < kCapacity && bytes_ < kCapacityBytes; }
+    void push(Entry&& entry);  // hasRoom() must hold
+    [[nodiscard]] const Entry& front() const { return ring_[head_]; }
+    [[nodiscard]] Entry pop();
+
+    template <class Remove>
+    void removeIf(Remove remove, std::vector<Entry>& into) {
+        for (std::size_t left = count_; left > 0; --left) {
+            Entry entry = pop();
+            if (remove(entry)) {
+                into.push_back(std::move(entry));
+            } else {
+                push(std::move(entry));
+            }
+        }
+    }
+
+  private:
+    std::vector<Entry> ring_;
+    std::size_t head_ = 0, count_ = 0;
+    std::uint64_t bytes_ = 0;
+};
+
+// The newest wishes as a set.
+class WishMarks {
+  public:
+    explicit WishMarks(std::size_t nodes) : markedAt_(nodes, 0) {}
+    void mark(std::span<const Wish> wishes);
+
+    // Moves finished loads that nobody wishes for any more to `dropped`, and takes wishes that are finished
+    // already out of `wishes` (mark() them first).
+    void settle(FinishedQueue& queue, std::vector<Wish>& wishes, std::vector<FinishedQueue::Entry>& dropped);
+
+  private:
+    [[nodiscard]] bool isMarked(NodeId node) const { return markedAt_[node] == now_; }
+
+    std::vector<std::uint64_t> markedAt_;
+    std::uint64_t now_ = 0;
+};
+
+}  // namespace fb

@@ -1,0 +1,57 @@
+#include "measure/front_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fb {
+namespace {
+
+double distanceTo(const Box3f& box, const glm::dvec3& eye) {
+    return Box3d{glm::dvec3(box.min), glm::dvec3(box.max)}.distance(eye);
+}
+
+struct Picture {
+    double pixels, diagonalPixels;
+    double inverseCosSquared;  // 1/cos^2 phi = 1 + tan^2 phi, tan phi = half the diagonal / K
+};
+
+Picture pictureOf(const View& view) {
+    const double w = view.width, h = view.height, squared = w * w + h * h;
+    return {w * h, std::sqrt(squared), 1.0 + squared / (4.0 * view.pixelsPerUnit * view.pixelsPerUnit)};
+}
+
+double errorPixels(double errorMetres, double distanceMetres, double pixelsPerUnit, const Picture& picture) {
+    if (!(errorMetres > 0.0)) return 0.0;
+    if (distanceMetres <= errorMetres) return picture.diagonalPixels;
+    return std::min(picture.diagonalPixels,
+                    errorMetres * pixelsPerUnit / (distanceMetres - errorMetres) * picture.inverseCosSquared);
+}
+
+}  // namespace
+
+double nodeErrorPixels(const Hierarchy& hierarchy, NodeId node, const View& view) {
+    return errorPixels(static_cast<double>(hierarchy.geometricErrorMetres[node]),
+                       distanceTo(hierarchy.bounds[node], view.camera.eye), view.pixelsPerUnit,
+                       pictureOf(view));
+}
+
+FrontError frontError(const Hierarchy& hierarchy, std::span<const NodeId> front, const View& view) {
+    const Picture picture = pictureOf(view);
+    FrontError error;
+    double sum = 0.0, weights = 0.0;
+    for (NodeId node : front) {
+        const double distance = distanceTo(hierarchy.bounds[node], view.camera.eye);
+        const double pixels = errorPixels(static_cast<double>(hierarchy.geometricErrorMetres[node]), distance,
+                                          view.pixelsPerUnit, picture);
+        const double scale = view.pixelsPerUnit / distance;  // infinite inside the box
+        const double area = static_cast<double>(hierarchy.areaSquareMetres[node]);
+        const double weight = area > 0.0 ? std::min(picture.pixels, area * scale * scale) : 0.0;
+        error.maxPixels = std::max(error.maxPixels, pixels);
+        sum += weight * pixels;
+        weights += weight;
+    }
+    if (weights > 0.0) error.meanPixels = sum / weights;
+    return error;
+}
+
+}  // namespace fb

@@ -1,0 +1,179 @@
+// summary.json: the names are an interface (design section 7): add, never rename. What they mean stands in
+// report.h.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/hash.h"
+#include "measure/report.h"
+
+namespace fb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+std::vector<double> collect(const std::vector<FrameRecord>& frames, const Value& value) {
+    std::vector<double> values;
+    values.reserve(frames.size());
+    for (const FrameRecord& frame : frames) values.push_back(static_cast<double>(value(frame)));
+    return values;
+}
+
+template <class Member>
+std::vector<double> collect(const std::vector<FrameRecord>& frames, Member FrameRecord::*member) {
+    return collect(frames, [member](const FrameRecord& frame) { return frame.*member; });
+}
+
+// null for what is not finite: JSON has no other word for it.
+Json numberOrNull(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+double percentOf(std::size_t part, std::size_t whole) {
+    return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json actualOf(const std::vector<FrameRecord>& frames) {
+    const Distribution d = describe(collect(frames, &FrameRecord::actualMs));
+    return {{"mean", d.mean}, {"sd", d.sd}, {"p50", d.p50}, {"p95", d.p95}, {"p99", d.p99}, {"max", d.max}};
+}
+
+Json utilisationOf(const std::vector<FrameRecord>& frames) {
+    std::vector<double> ratios;
+    for (const FrameRecord& frame : frames) {
+        if (frame.moreDetailAvailable && frame.targetMs > 0.0)
+            ratios.push_back(frame.actualMs / frame.targetMs);
+    }
+    return ratios.empty() ? Json(nullptr) : Json(describe(ratios).mean);
+}
+
+double overTargetPercent(const std::vector<FrameRecord>& frames) {
+    const auto over = [](const FrameRecord& frame) { return frame.actualMs > 1.1 * frame.targetMs; };
+    return percentOf(static_cast<std::size_t>(std::ranges::count_if(frames, over)), frames.size());
+}
+
+Json estimateErrorOf(const std::vector<FrameRecord>& frames) {
+    std::vector<double> percents;
+    for (const FrameRecord& frame : frames) {
+        if (frame.actualMs > 0.0)
+            percents.push_back(100.0 * (frame.actualMs - frame.estimateMs) / frame.actualMs);
+    }
+    const Distribution d = describe(percents);
+    if (percents.empty()) return {{"mean", nullptr}, {"sd", nullptr}};
+    return {{"mean", d.mean}, {"sd", d.sd}};
+}
+
+Json togglesOf(const std::vector<FrameRecord>& frames) {
+    std::uint64_t up = 0, down = 0, pingPongs = 0;
+    for (const FrameRecord& frame : frames) {
+        up += frame.togglesUp;
+        down += frame.togglesDown;
+        pingPongs += frame.pingPongs;
+    }
+    const double count = static_cast<double>(frames.size()), toggles = static_cast<double>(up + down);
+    return {{"up", up},
+            {"down", down},
+            {"per_frame", frames.empty() ? 0.0 : toggles / count},
+            {"frames_per_toggle", toggles > 0.0 ? Json(count / toggles) : Json(nullptr)},
+            {"pingpong", pingPongs}};
+}
+
+Json levelsShareOf(const std::vector<FrameRecord>& frames, int levels) {
+    Json shares = Json::array();
+    for (int level = 0; level < std::clamp(levels, 1, kMaxLevels); ++level) {
+        std::vector<double> values;
+        for (const FrameRecord& frame : frames) {
+            if (frame.frontNodes == 0) continue;
+            values.push_back(static_cast<double>(frame.levels[static_cast<std::size_t>(level)]) /
+                             frame.frontNodes);
+        }
+        shares.push_back(describe(values).mean);
+    }
+    return shares;
+}
+
+// Of counts.
+Json meanAndMax(const std::vector<double>& values) {
+    const Distribution d = describe(values);
+    return {{"mean", d.mean}, {"max", static_cast<std::uint64_t>(d.max)}};
+}
+
+Json memoryOf(const ReplayReport& report) {
+    const auto over = [](const FrameRecord& frame) {
+        return frame.residentBytes + frame.reservedBytes > frame.budgetBytes;
+    };
+    return {{"budget_bytes", report.budgetBytes},
+            {"peak_bytes", report.peakBytes},
+            {"over_budget_frames", std::ranges::count_if(report.frames, over)}};
+}
+
+Json errorPixelsOf(const std::vector<FrameRecord>& frames) {
+    const Distribution worst = describe(collect(frames, &FrameRecord::errorPixelsMax));
+    return {{"mean", describe(collect(frames, &FrameRecord::errorPixelsMean)).mean},
+            {"p95", worst.p95},
+            {"max", worst.max}};
+}
+
+Json imageOf(const ImageErrorSummary& image) {
+    return {{"psnr_db", numberOrNull(image.psnrDb)},
+            {"psnr_db_worst", numberOrNull(image.worstPsnrDb)},
+            {"ssim", image.ssim},
+            {"ssim_worst", image.worstSsim},
+            {"pictures", image.pictures}};
+}
+
+Json effectsOf(const ReplayReport& report) {
+    Json effects = Json::array();
+    for (const ReplayReport::EffectUse& use : report.effects) {
+        effects.push_back({{"name", use.name},
+                           {"mode", use.mode},
+                           {"active_frames", use.activeFrames},
+                           {"us_mean", numberOrNull(use.meanUs)}});
+    }
+    return effects;
+}
+
+}  // namespace
+
+std::string summaryJson(const ReplayReport& report) {
+    const std::vector<FrameRecord>& frames = report.frames;
+    const Distribution selectUs = describe(collect(frames, &FrameRecord::selectUs));
+    const LoadCounters& loads = report.loads;
+    Json json;
+    json["program"] = "frontbench";
+    json["version"] = report.version;
+    json["scene"] = report.scene;
+    json["scene_hash"] = hashText(report.sceneHash);
+    json["preset"] = report.preset;
+    json["settings_hash"] = hashText(report.settingsHash);
+    json["policy"] = report.policy;
+    json["path"] = report.path;
+    json["clock"] = report.clock;
+    json["device"] = report.device;
+    json["frames"] = frames.size();
+    json["target_ms"] = numberOrNull(report.targetMs);
+    json["actual_ms"] = actualOf(frames);
+    json["utilisation"] = utilisationOf(frames);
+    json["over_target_pct"] = overTargetPercent(frames);
+    json["estimate_error_pct"] = estimateErrorOf(frames);
+    json["toggles"] = togglesOf(frames);
+    json["levels_share"] = levelsShareOf(frames, report.levels);
+    json["front_nodes"] = meanAndMax(collect(frames, &FrameRecord::frontNodes));
+    json["triangles"] = meanAndMax(collect(frames, &FrameRecord::triangles));
+    json["select_us"] = {{"mean", selectUs.mean}, {"p99", selectUs.p99}};
+    json["visited"] = meanAndMax(collect(frames, &FrameRecord::visited));
+    json["memory"] = memoryOf(report);
+    json["loads"] = {{"requested", loads.requested}, {"completed", loads.completed},
+                     {"suspended", loads.suspended}, {"cancelled", loads.cancelled},
+                     {"evicted", loads.evicted},     {"bytes", loads.bytes},
+                     {"failed", loads.failed}};
+    json["err_px"] = errorPixelsOf(frames);
+    if (report.image) json["image"] = imageOf(*report.image);
+    json["effects"] = effectsOf(report);
+    json["front_hash"] = hashText(frames.empty() ? 0 : frames.back().frontHash);
+    // Names of files need not be UTF-8, JSON is.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace fb

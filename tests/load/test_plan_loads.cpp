@@ -1,0 +1,539 @@
+#include <gtest/gtest.h>
+
+#include "tiny_world.h"
+
+namespace fb::test {
+namespace {
+
+constexpr std::uint32_t kMiB = 1u << 20;
+
+//            0
+//       1         2       priorities 5 and 3
+//     3   4     5   6     9 and 1, 2 and 2
+World twoLevels() {
+    return World(
+        {{kRoot, 1, 100}, {0, 5, 100}, {0, 3, 100}, {1, 9, 100}, {1, 1, 100}, {2, 2, 100}, {2, 2, 100}});
+}
+
+// Four roots (0 to 3) of 100 bytes; root i has the children 4 + 2i and 5 + 2i of 100 bytes each. Priorities
+// of the groups: 8, 4, 2, 1.
+World fourGroups() {
+    return World({{kRoot, 1, 100},
+                  {kRoot, 1, 100},
+                  {kRoot, 1, 100},
+                  {kRoot, 1, 100},
+                  {0, 8, 100},
+                  {0, 8, 100},
+                  {1, 4, 100},
+                  {1, 1, 100},
+                  {2, 2, 100},
+                  {2, 1, 100},
+                  {3, 1, 100},
+                  {3, 1, 100}});
+}
+
+TEST(PlanLoads, WishesOnlyForChildrenOfResidentNodes) {
+    World w = twoLevels();
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{1, 2}));
+    EXPECT_EQ(w.plan.wishes[0].priority, 5.0);
+    EXPECT_EQ(w.plan.wishes[1].priority, 5.0) << "siblings share the greatest priority among them";
+    EXPECT_EQ(w.residency.reservedBytes, 200u);
+    EXPECT_EQ(w.residency.counters.requested, 2u);
+}
+
+TEST(PlanLoads, GoesBelowAGroupOnlyWhenAllOfItIsResident) {
+    World w = twoLevels();
+    w.planFrame();
+    w.deliver(1);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{2})) << "3 and 4 could not be drawn without 2";
+    w.deliver(2);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{3, 4, 5, 6}));
+}
+
+TEST(PlanLoads, NeverRanksAGroupAboveTheOneItHangsFrom) {
+    World w = twoLevels();
+    w.planFrame();
+    w.deliverAll();
+    w.planFrame();
+    EXPECT_EQ(w.plan.wishes[0].priority, 5.0) << "9 capped by the 5 of {1, 2}";
+    EXPECT_EQ(w.plan.wishes[2].priority, 2.0);
+}
+
+TEST(PlanLoads, OrdersWishesByFallingPriorityWithSiblingsSideBySide) {
+    World w = fourGroups();
+    w.hierarchy.staticBenefit[11] = 16;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{10, 11, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST(PlanLoads, FillsTheBudgetToTheLastByteAndNotBeyond) {
+    World w = fourGroups();
+    w.setBudget(800);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5, 6, 7}));
+    EXPECT_EQ(w.residency.totalBytes(), 800u);
+    EXPECT_EQ(w.refusedNodes(), (Nodes{8, 9, 10, 11}));
+
+    World less = fourGroups();
+    less.setBudget(799);
+    less.planFrame();
+    EXPECT_EQ(less.wished(), (Nodes{4, 5}));
+    EXPECT_EQ(less.refusedNodes(), (Nodes{6, 7, 8, 9, 10, 11}));
+}
+
+TEST(PlanLoads, PassesOverAGroupThatIsTooLargeForTheMemory) {
+    World w = fourGroups();
+    w.hierarchy.residentBytes[4] = 5000;
+    w.setBudget(800);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{6, 7, 8, 9}));
+    EXPECT_EQ(w.refusedNodes(), (Nodes{4, 5, 10, 11}));
+}
+
+TEST(PlanLoads, EvictsTheGroupOfLowestPriorityWhole) {
+    World w = fourGroups();
+    w.setBudget(800);
+    w.settle();
+    EXPECT_EQ(w.loadedNodes(), (Nodes{0, 1, 2, 3, 4, 5, 6, 7}));
+    w.hierarchy.staticBenefit[10] = 100;
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{6, 7}));
+    EXPECT_EQ(w.wished(), (Nodes{10, 11}));
+    EXPECT_EQ(w.refusedNodes(), (Nodes{6, 7, 8, 9})) << "what was evicted had no room either";
+    EXPECT_EQ(w.residency.totalBytes(), 800u);
+    EXPECT_EQ(w.residency.counters.evicted, 2u);
+    EXPECT_FALSE(w.plan.frontEvicted);
+    w.deliverAll();
+    w.planFrame();
+    EXPECT_TRUE(w.plan.evicted.empty());
+}
+
+TEST(PlanLoads, EvictsOnlyBelowTheMargin) {
+    World w = fourGroups();
+    w.setBudget(800);
+    w.settle();
+    w.hierarchy.staticBenefit[10] = 8.0f;  // 4 < 0.5 * 8 does not hold
+    w.planFrame();
+    EXPECT_TRUE(w.plan.evicted.empty());
+    EXPECT_EQ(w.refusedNodes(), (Nodes{8, 9, 10, 11}));
+    w.hierarchy.staticBenefit[10] = 8.25f;
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{6, 7}));
+}
+
+TEST(PlanLoads, EvictsNothingWhenEvenThatWouldNotMakeRoom) {
+    World w = fourGroups();
+    w.setBudget(800);
+    w.settle();
+    w.hierarchy.staticBenefit[10] = 12;  // group of 200 + 300 bytes: 4 may go, 8 may not
+    w.hierarchy.residentBytes[10] = 400;
+    w.planFrame();
+    EXPECT_TRUE(w.plan.evicted.empty());
+    w.hierarchy.staticBenefit[10] = 17;  // now both may go, and 400 bytes are still too few
+    w.planFrame();
+    EXPECT_TRUE(w.plan.evicted.empty());
+    EXPECT_EQ(w.refusedNodes(), (Nodes{8, 9, 10, 11}));
+    w.hierarchy.residentBytes[10] = 300;
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{6, 7, 4, 5})) << "lowest priority first";
+}
+
+TEST(PlanLoads, KeepsTheSiblingsOfWhatIsDrawn) {
+    World w = fourGroups();
+    w.setBudget(800);
+    w.settle();
+    w.setFront({6});  // 7 is outside the view, but without it 6 could not be drawn
+    w.hierarchy.staticBenefit[10] = 100;
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{4, 5})) << "the lowest of those not drawn";
+    w.deliverAll();
+    w.setFront({6, 10});
+    w.hierarchy.staticBenefit[8] = 1000;
+    w.planFrame();
+    EXPECT_TRUE(w.plan.evicted.empty());
+}
+
+//      0          1        roots
+//      2          3        priority 4; 3
+//      4                   1
+TEST(PlanLoads, EvictsChildrenBeforeTheirParent) {
+    World w({{kRoot, 1, 100}, {kRoot, 1, 100}, {0, 4, 100}, {1, 3, 100}, {2, 1, 100}});
+    w.setBudget(400);
+    w.settle();
+    EXPECT_EQ(w.loadedNodes(), (Nodes{0, 1, 2, 3}));
+    w.setBudget(500);
+    w.settle();
+    ASSERT_EQ(w.loadedNodes(), (Nodes{0, 1, 2, 3, 4}));
+    w.setBudget(300);
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{4, 3})) << "1, then 3; 2 has the greatest priority";
+}
+
+//      0          1
+//      2          3        priority 2; 100
+//      4                   50: ranks above its parent
+TEST(PlanLoads, NeverEvictsAParentFirstAlthoughItsChildRanksHigher) {
+    World w({{kRoot, 1, 100}, {kRoot, 1, 100}, {0, 2, 100}, {1, 1, 100}, {2, 50, 100}});
+    w.settle();
+    ASSERT_EQ(w.loadedNodes().size(), 5u);
+    w.residency.setUnloaded(w.hierarchy, 3);
+    w.hierarchy.staticBenefit[3] = 100;
+    w.hierarchy.residentBytes[3] = 200;
+    w.setBudget(400);
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{4, 2}));
+    EXPECT_EQ(w.wished(), (Nodes{3}));
+}
+
+TEST(PlanLoads, NeverEvictsTheParentOfWhatItMakesRoomFor) {
+    //   0 - 1 - 2 : 2 matters far more than 1 and there is room for one of them
+    World w({{kRoot, 1, 100}, {0, 1, 100}, {1, 100, 100}});
+    w.setBudget(200);
+    w.settle();
+    for (int frame = 0; frame < 3; ++frame) {
+        w.planFrame();
+        EXPECT_TRUE(w.plan.evicted.empty());
+        EXPECT_TRUE(w.plan.wishes.empty());
+        EXPECT_EQ(w.refusedNodes(), (Nodes{2}));
+    }
+}
+
+TEST(PlanLoads, NeverEvictsARoot) {
+    World w = fourGroups();
+    w.settle();
+    w.setBudget(100);
+    w.planFrame();
+    EXPECT_EQ(w.loadedNodes(), (Nodes{0, 1, 2, 3}));
+    EXPECT_EQ(w.refusedNodes(), (Nodes{4, 5, 6, 7, 8, 9, 10, 11}));
+    w.planFrame();
+    EXPECT_TRUE(w.plan.evicted.empty());
+    EXPECT_TRUE(w.plan.wishes.empty());
+}
+
+TEST(PlanLoads, EvictsEvenTheFrontAtOnceWhenTheBudgetIsCut) {
+    World w = fourGroups();
+    w.settle();
+    ASSERT_EQ(w.residency.totalBytes(), 1200u);
+    w.setFront({10, 11, 6, 7});  // priorities 1 and 4; not drawn: 8 and 2
+    w.setBudget(850);
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{8, 9, 4, 5})) << "first what is not drawn, lowest priority first";
+    EXPECT_FALSE(w.plan.frontEvicted);
+    w.setBudget(600);
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{10, 11}));
+    EXPECT_TRUE(w.plan.frontEvicted);
+    EXPECT_EQ(w.residency.totalBytes(), 600u);
+}
+
+TEST(PlanLoads, ComesBackWhenTheBudgetIsRestored) {
+    World w = fourGroups();
+    w.settle();
+    w.setBudget(600);
+    w.settle();
+    EXPECT_EQ(w.loadedNodes(), (Nodes{0, 1, 2, 3, 4, 5}));
+    EXPECT_EQ(w.refusedNodes(), (Nodes{6, 7, 8, 9, 10, 11}));
+    w.setBudget(1200);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{6, 7, 8, 9, 10, 11}));
+    EXPECT_TRUE(w.refusedNodes().empty());
+}
+
+TEST(PlanLoads, CountsReservedBytesAgainstTheBudgetWhenItIsCut) {
+    World w = fourGroups();
+    w.planFrame();
+    ASSERT_EQ(w.residency.reservedBytes, 800u);
+    w.setBudget(750);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5}));
+    EXPECT_EQ(w.residency.counters.cancelled, 6u);
+    EXPECT_TRUE(w.plan.evicted.empty()) << "nothing of it was on the device";
+}
+
+TEST(PlanLoads, FreesRoomByStoppingALoadWhosePriorityFellBehind) {
+    World w = fourGroups();
+    w.setBudget(600);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5}));
+    w.hierarchy.staticBenefit[6] = 17;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{6, 7}));
+    EXPECT_EQ(w.residency.counters.cancelled, 2u);
+    EXPECT_EQ(w.residency.totalBytes(), 600u);
+    EXPECT_TRUE(w.plan.evicted.empty());
+}
+
+// The window of loads in flight is 8 MiB for budgets up to 64 MiB. Groups of 2 * 3 MiB.
+World largeGroups() {
+    World w = fourGroups();
+    for (NodeId n = 4; n < 12; ++n) w.hierarchy.residentBytes[n] = 3 * kMiB;
+    w.setBudget(64 * kMiB);
+    return w;
+}
+
+TEST(PlanLoads, KeepsOnlySoMuchInFlight) {
+    World w = largeGroups();
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5}));
+    EXPECT_TRUE(w.refusedNodes().empty()) << "there is memory; it is only not their turn";
+    w.deliver(4);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{5})) << "3 + 6 MiB are more than 8";
+    w.deliver(5);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{6, 7}));
+    w.setBudget(96 * kMiB);  // window 12 MiB
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{6, 7, 8, 9}));
+}
+
+TEST(PlanLoads, LetsAGroupLargerThanTheWindowGoAlone) {
+    World w = largeGroups();
+    w.hierarchy.residentBytes[4] = 20 * kMiB;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5}));
+}
+
+TEST(PlanLoads, StopsWhatFellBehindForTheSakeOfTheWindow) {
+    World w = largeGroups();
+    w.planFrame();
+    w.hierarchy.staticBenefit[8] = 16;  // 8 < 0.5 * 16 does not hold: it waits
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5}));
+    w.deliver(5);
+    w.hierarchy.staticBenefit[8] = 17;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{8, 9}));
+    EXPECT_EQ(w.residency.counters.cancelled, 1u);
+    EXPECT_EQ(w.residency.loaded[5], 1) << "what has been loaded stays while there is memory";
+    EXPECT_EQ(w.residency.state[4], NodeState::unloaded);
+    EXPECT_TRUE(w.refusedNodes().empty());
+}
+
+TEST(PlanLoads, CountsWhatSteppedBackAsMissingWhenTheSameGroupComesUpAgain) {
+    World w = fourGroups();
+    const std::uint32_t mebibytes[] = {1, 4, 0, 0, 3, 2, 0, 0};
+    for (NodeId n = 4; n < 12; ++n) w.hierarchy.residentBytes[n] = mebibytes[n - 4] * kMiB;
+    w.setBudget(9 * kMiB + 400);
+    w.planFrame();
+    ASSERT_EQ(w.wished(), (Nodes{4, 5, 6, 7, 10, 11})) << "5 + 5 MiB are too much";
+    for (const NodeId n : {6u, 7u, 10u, 11u}) w.deliver(n);
+    w.residency.setFailed(w.hierarchy, 4, 0.0);
+    // At 0.5 s node 4 may be tried again beside 5, which is in flight; but {8, 9} is more urgent now, needs 5
+    // MiB of the window's 8 and sends 5 back. Then {4, 5} needs 5 MiB, not 1, of the remaining 4.
+    w.nowSeconds = 0.5;
+    w.hierarchy.staticBenefit[8] = 100;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{8, 9}));
+    EXPECT_EQ(w.refusedNodes(), (Nodes{4, 5}));
+    EXPECT_EQ(w.residency.totalBytes(), 5u * kMiB + 400);
+}
+
+TEST(PlanLoads, LetsNoSmallerGroupPassOneThatWaitsForItsPlace) {
+    World w = largeGroups();
+    for (const NodeId n : {8u, 9u, 10u, 11u}) w.hierarchy.residentBytes[n] = 10;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5})) << "else the group of 6 could wait for ever";
+}
+
+TEST(PlanLoads, DoesNotStopLoadsForAGroupThatTheMemoryRefuses) {
+    World w = largeGroups();
+    w.setBudget(8 * kMiB);
+    w.planFrame();
+    ASSERT_EQ(w.wished(), (Nodes{4, 5}));
+    w.hierarchy.staticBenefit[8] = 100;
+    w.hierarchy.residentBytes[8] = 30 * kMiB;
+    for (int frame = 0; frame < 3; ++frame) {
+        w.planFrame();
+        EXPECT_EQ(w.wished(), (Nodes{4, 5}));
+        EXPECT_EQ(w.residency.counters.cancelled, 0u);
+    }
+}
+
+TEST(PlanLoads, WaitsForTheRetryOfAFailedNode) {
+    World w = fourGroups();
+    w.setBudget(600);
+    w.planFrame();
+    ASSERT_EQ(w.wished(), (Nodes{4, 5}));
+    w.nowSeconds = 10.0;
+    w.residency.setFailed(w.hierarchy, 4, 10.0);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{5})) << "what is under way goes on";
+    w.deliver(5);
+    w.nowSeconds = 10.4375;
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty());
+    EXPECT_FALSE(w.plan.everythingLoaded);
+    w.nowSeconds = 10.5;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4}));
+}
+
+TEST(PlanLoads, LoadsNoSiblingsWhileOneMayNotBeRetried) {
+    World w = fourGroups();
+    w.planFrame();
+    w.residency.setFailed(w.hierarchy, 4, 0.0);
+    w.residency.setUnloaded(w.hierarchy, 5);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{6, 7, 8, 9, 10, 11}));
+    w.nowSeconds = 0.5;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{4, 5, 6, 7, 8, 9, 10, 11}));
+}
+
+void failForGood(World& w, NodeId node) {
+    while (w.residency.state[node] != NodeState::failed) {
+        if (!w.residency.isInFlight(node)) w.residency.reserve(w.hierarchy, node);
+        w.residency.setFailed(w.hierarchy, node, w.nowSeconds);
+    }
+}
+
+TEST(PlanLoads, GivesUpAGroupThatCanNeverBeComplete) {
+    World w = fourGroups();
+    w.planFrame();
+    failForGood(w, 4);
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{6, 7, 8, 9, 10, 11})) << "5 is stopped: without 4 it is of no use";
+    w.deliverAll();
+    w.nowSeconds = 1e6;
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty());
+    EXPECT_TRUE(w.plan.everythingLoaded) << "nothing is left that could be loaded";
+    EXPECT_TRUE(w.refusedNodes().empty());
+}
+
+TEST(PlanLoads, TakesTheMemoryOfAUselessGroupFirst) {
+    World w = fourGroups();
+    w.setBudget(800);
+    w.planFrame();
+    w.deliver(5);
+    w.deliver(6);
+    w.deliver(7);
+    failForGood(w, 4);
+    w.planFrame();  // 5 is of no use although its priority is the greatest; 100 bytes are free, {8, 9} needs
+                    // 200
+    EXPECT_EQ(w.plan.evicted, (Nodes{5}));
+    EXPECT_EQ(w.wished(), (Nodes{8, 9}));
+}
+
+TEST(PlanLoads, KeepsWhatIsThereOfABrokenGroupWhenVisibleChildrenAreEnough) {
+    World w = fourGroups();
+    w.select.needAllChildren = false;
+    w.setBudget(800);
+    w.planFrame();
+    w.deliver(5);
+    w.deliver(6);
+    w.deliver(7);
+    failForGood(w, 4);
+    w.planFrame();
+    EXPECT_TRUE(w.plan.evicted.empty());
+    EXPECT_TRUE(w.plan.wishes.empty());
+    EXPECT_EQ(w.refusedNodes(), (Nodes{8, 9, 10, 11}));
+}
+
+//    0 - {1, 2};  1 - {3};  when 2 is lost, 3 can never be drawn
+TEST(PlanLoads, LoadsNothingBelowAnIncompleteGroup) {
+    World w({{kRoot, 1, 100}, {0, 4, 100}, {0, 4, 100}, {1, 2, 100}});
+    w.planFrame();
+    w.deliver(1);
+    failForGood(w, 2);
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty());
+    EXPECT_TRUE(w.plan.everythingLoaded);
+    w.select.needAllChildren = false;
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{3}));
+}
+
+TEST(PlanLoads, StopsEverythingWhenFrozenButKeepsTheBudget) {
+    World w = fourGroups();
+    w.planFrame();
+    w.deliver(4);
+    w.deliver(5);
+    w.load.frozen = true;
+    w.hierarchy.staticBenefit[4] = w.hierarchy.staticBenefit[5] = 0.001f;
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty());
+    EXPECT_TRUE(w.plan.evicted.empty());
+    EXPECT_EQ(w.residency.reservedBytes, 0u);
+    EXPECT_EQ(w.residency.counters.cancelled, 6u);
+    EXPECT_FALSE(w.plan.everythingLoaded);
+    w.setBudget(599);
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{4, 5}));
+}
+
+TEST(PlanLoads, SaysWhenEverythingIsLoaded) {
+    World w = twoLevels();
+    w.planFrame();
+    EXPECT_FALSE(w.plan.everythingLoaded);
+    w.deliverAll();
+    w.planFrame();
+    EXPECT_FALSE(w.plan.everythingLoaded);
+    w.deliverAll();
+    w.planFrame();
+    EXPECT_TRUE(w.plan.everythingLoaded);
+
+    World onlyRoots({{kRoot, 1, 100}});
+    onlyRoots.planFrame();
+    EXPECT_TRUE(onlyRoots.plan.everythingLoaded);
+}
+
+TEST(PlanLoads, ForgetsRefusalsBelowWhatIsEvicted) {
+    World w({{kRoot, 1, 100}, {kRoot, 1, 100}, {0, 2, 100}, {1, 1, 100}, {2, 2, 100}});
+    w.setBudget(300);
+    w.settle();
+    ASSERT_EQ(w.refusedNodes(), (Nodes{3, 4}));
+    w.hierarchy.staticBenefit[3] = 10;
+    w.planFrame();
+    EXPECT_EQ(w.plan.evicted, (Nodes{2}));
+    EXPECT_EQ(w.refusedNodes(), (Nodes{2}));
+}
+
+TEST(PlanLoads, LoadsAndEvictsNodesOfNoBytesLikeOthers) {
+    World w({{kRoot, 1, 100}, {0, 4, 100}, {1, 2, 0}, {2, 1, 0}});
+    w.settle();
+    ASSERT_EQ(w.loadedNodes(), (Nodes{0, 1, 2, 3}));
+    w.setBudget(100);
+    w.planFrame();
+    EXPECT_EQ(w.loadedNodes(), (Nodes{0}));
+    w.setBudget(200);
+    w.planFrame();
+    w.deliverAll();
+    w.planFrame();
+    EXPECT_EQ(w.wished(), (Nodes{2}));
+    w.load.frozen = true;
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty());
+    w.load.frozen = false;
+    w.setBudget(99);
+    w.planFrame();
+    w.planFrame();
+    EXPECT_TRUE(w.plan.wishes.empty()) << "not even these while the roots are too large";
+}
+
+TEST(PlanLoads, TakesTheWholeFlightWindowFromTheBudget) {
+    EXPECT_EQ(flightWindowBytes(0), 8u * kMiB);
+    EXPECT_EQ(flightWindowBytes(64u * kMiB), 8u * kMiB);
+    EXPECT_EQ(flightWindowBytes(80u * kMiB), 10u * kMiB);
+}
+
+TEST(CheckBudget, RefusesABudgetBelowTheRootsWithTheNumberNeeded) {
+    const std::vector<NodeSpec> specs = {{kRoot, 1, 3 * kMiB}, {kRoot, 1, 2 * kMiB + 1}, {0, 1, 100 * kMiB}};
+    const Hierarchy hierarchy = makeHierarchy(specs);
+    LoadSettings load;
+    load.budgetMiB = 5.0;
+    const Result<void> refused = checkBudget(hierarchy, load);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_EQ(refused.error().oneLine(),
+              "load.budget: 2 roots of the scene take 5242881 bytes, the budget is 5242880 "
+              "(set load.budget to 6 MiB or more)");
+    load.budgetMiB = 6.0;
+    EXPECT_TRUE(checkBudget(hierarchy, load).has_value());
+}
+
+}  // namespace
+}  // namespace fb::test

@@ -1,0 +1,59 @@
+// Runs the program under test as a user would, with its output in files.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace fb::test {
+
+inline std::string readText(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A folder that is there for one test.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "frontbench-test-XXXXXX").string();
+        path_ = ::mkdtemp(pattern.data());
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);
+        std::filesystem::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+struct Run {
+    int exitCode = -1;
+    std::string out, err;
+
+    [[nodiscard]] std::ptrdiff_t errLines() const { return std::count(err.begin(), err.end(), '\n'); }
+};
+
+// `arguments` as typed in a shell. `program` is the one of this build unless another is named.
+inline Run runProgram(const std::string& arguments, const std::string& program = FB_PROGRAM) {
+    const TemporaryFolder folder;
+    const std::filesystem::path out = folder / "out";
+    const std::filesystem::path err = folder / "err";
+    const std::string command =
+        "'" + program + "' " + arguments + " </dev/null >'" + out.string() + "' 2>'" + err.string() + "'";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128, readText(out), readText(err)};
+}
+
+}  // namespace fb::test

@@ -1,0 +1,15 @@
+// The panels, one file each; workbench_ui.cpp lays them out.
+#pragma once
+
+#include "ui/workbench_ui.h"
+
+namespace fb {
+
+void drawViewPanel(const UiInput& input, UiState& state, UiRequests& requests);
+void drawTuningPanel(const UiInput& input, UiState& state, UiRequests& requests);
+void drawTimePanel(const UiInput& input, UiState& state);
+void drawLevelsPanel(const UiInput& input, UiState& state);
+void drawPresetsPanel(const UiInput& input, UiState& state, UiRequests& requests);
+void drawStatusBar(const UiInput& input);
+
+}  // namespace fb

@@ -1,0 +1,52 @@
+// The status bar: errors, the frame's time against its target, what binds, memory, the device.
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "load/residency.h"
+#include "ui/panels.h"
+
+namespace fb {
+namespace {
+
+// The reason that keeps most nodes of the front from being finer.
+std::string_view whatBinds(const FrameRecord& record) {
+    const auto most = std::ranges::max_element(record.boundBy);
+    if (record.frontNodes == 0) return "nothing in view";
+    if (!record.moreDetailAvailable) return "nothing: every node in view is a leaf";
+    std::size_t reason = static_cast<std::size_t>(most - record.boundBy.begin());
+    if (reason == static_cast<std::size_t>(BoundBy::leaf)) {
+        reason = static_cast<std::size_t>(std::max_element(record.boundBy.begin() + 1, record.boundBy.end()) - record.boundBy.begin());
+    }
+    return boundByName(static_cast<BoundBy>(reason));
+}
+
+}  // namespace
+
+void drawStatusBar(const UiInput& input) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(" ");
+    if (input.history.size() > 0) {
+        const FrameRecord& r = input.history.newest();
+        ImGui::SameLine();
+        const std::string_view binds = whatBinds(r);
+        ImGui::Text("%.1f of %.1f ms | %u nodes, %.0f K triangles | binds: %.*s | %.0f of %.0f MiB", r.actualMs, r.targetMs,
+                    r.frontNodes, static_cast<double>(r.triangles) / 1e3, static_cast<int>(binds.size()), binds.data(),
+                    static_cast<double>(r.residentBytes + r.reservedBytes) / kBytesPerMiB,
+                    static_cast<double>(r.budgetBytes) / kBytesPerMiB);
+    }
+    ImGui::SameLine();
+    ImGui::TextDisabled("| %.*s |", static_cast<int>(input.device.size()), input.device.data());
+    ImGui::SameLine();
+    if (input.errorCount > 0) {
+        ImGui::TextColored(ImVec4(0.95f, 0.4f, 0.3f, 1.0f), "%u errors", input.errorCount);
+    } else {
+        ImGui::TextDisabled("no errors");
+    }
+    if (input.message.empty()) return;
+    ImGui::SameLine();
+    const ImVec4 colour = input.messageIsError ? ImVec4(0.95f, 0.4f, 0.3f, 1.0f) : ImGui::GetStyleColorVec4(ImGuiCol_Text);
+    ImGui::TextColored(colour, "| %.*s", static_cast<int>(input.message.size()), input.message.data());
+}
+
+}  // namespace fb
