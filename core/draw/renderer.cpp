@@ -18,6 +18,8 @@ namespace fb {
 
 namespace {
 
+constexpr std::uint64_t kMeshPageBytes = 8 << 20, kSoftwareMeshPageBytes = 2 << 20;
+constexpr std::uint64_t kTexturePageBytes = 16 << 20, kSoftwareTexturePageBytes = 4 << 20;
 // Some frames' uploads at the default budget (load.upload_per_frame) fit at once.
 constexpr std::size_t kUploadRingBytes = 32 << 20;
 
@@ -65,8 +67,11 @@ class PooledRenderer final : public Renderer {
           wallClock_(wallClock),
           programs_(std::move(programs)),
           staging_(std::move(staging)),
-          meshes_(options.meshPageBytes),
-          textures_(options.smallestTexturePageBytes, options.largestTexturePageBytes, !device_.software),
+          meshes_(options.meshPageBytes.value_or(device_.software ? kSoftwareMeshPageBytes : kMeshPageBytes)),
+          textures_(options.smallestTexturePageBytes,
+                    options.largestTexturePageBytes.value_or(device_.software ? kSoftwareTexturePageBytes
+                                                                              : kTexturePageBytes),
+                    !device_.software),
           timer_(wallClock),
           emptyVertexArray_(GlVertexArray::make()) {}
 

@@ -48,12 +48,15 @@ struct GpuMemory {
     std::uint64_t allocatedMeshBytes = 0, allocatedTextureBytes = 0;  // of the pools that hold them
 };
 
-// Sizes of the pools; what is empty is chosen to suit the device.
+// What is empty is chosen to suit the device. Pages are large on a GPU, for few draw calls, and smaller on a
+// software rasteriser, which gains nothing by that and clears each page as it makes it (16 MiB: 7 ms within
+// one upload).
 struct RendererOptions {
-    std::uint64_t meshPageBytes = 8 << 20;
-    std::uint64_t smallestTexturePageBytes = 1 << 20, largestTexturePageBytes = 16 << 20;
-    std::optional<std::size_t> uploadRingBytes;  // 0: straight from the caller's memory
-    std::optional<bool> wallClock;               // false: timer queries
+    std::optional<std::uint64_t> meshPageBytes;            // 8 MiB, software 2 MiB
+    std::optional<std::uint64_t> largestTexturePageBytes;  // 16 MiB, software 4 MiB
+    std::uint64_t smallestTexturePageBytes = 1 << 20;
+    std::optional<std::size_t> uploadRingBytes;  // 32 MiB, software 0: straight from the caller's memory
+    std::optional<bool> wallClock;               // software true; false: timer queries
 };
 
 class Renderer : public NodeDevice {
@@ -74,8 +77,9 @@ class Renderer : public NodeDevice {
     [[nodiscard]] virtual const std::string& fault() const = 0;
     // The next measured time, oldest first; false when none has arrived.
     [[nodiscard]] virtual bool takeTime(DrawTime& time) = 0;
-    // The picture drawn last as a GL texture name (for the GUI; row 0 of its texels is the bottom one), and
-    // as pixels (RGB, row 0 at the top). Values are sRGB bytes. No texture before the first draw().
+    // The picture drawn last as a GL texture name (for the GUI; another one after the size has changed; row 0
+    // of its texels is the bottom one), and as pixels (RGB, row 0 at the top). Values are sRGB bytes. No
+    // texture before the first draw().
     [[nodiscard]] virtual unsigned pictureTexture() const = 0;
     [[nodiscard]] virtual Image readPicture() = 0;
     [[nodiscard]] virtual GpuMemory memory() const = 0;

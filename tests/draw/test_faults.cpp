@@ -159,7 +159,7 @@ TEST_F(DrawTest, StaysAsItWasWhenAnUploadFindsNoMemory) {
     world.add(texturedNode(0));
     effects[Effect::texturing] = true;
     RendererOptions options;
-    options.meshPageBytes = options.smallestTexturePageBytes = options.largestTexturePageBytes = 1;
+    options.meshPageBytes = options.largestTexturePageBytes = options.smallestTexturePageBytes = 1;
     const View view = viewAlongZ({}, 8, 8);
     int refusals = 0;
     for (int call = 1; call <= 4; ++call) {
