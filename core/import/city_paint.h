@@ -2,6 +2,7 @@
 // roofs. Row by row, each row as runs of one material, so that the work per texel is a few multiplications.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -107,5 +108,8 @@ struct LightColumn {
     std::uint16_t r = 256, g = 256, b = 256;
 };
 void developRow(std::span<const LightColumn> light, std::uint32_t grainSeed, std::uint8_t* pixels);
+
+// Place inside a repeating pattern, 0 to 1.
+[[nodiscard]] inline double phase(double at, double period) { return at / period - std::floor(at / period); }
 
 }  // namespace fb::city

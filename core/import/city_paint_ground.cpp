@@ -10,10 +10,6 @@ namespace {
 constexpr Colour kAsphalt{96, 96, 98}, kNewAsphalt{70, 70, 73}, kSlab{158, 153, 144}, kKerb{178, 175, 168};
 constexpr Colour kPaint{214, 212, 204}, kYellow{200, 164, 62};
 
-double phase(double at, double period) {
-    return at / period - std::floor(at / period);
-}
-
 const Street* streetAt(const std::vector<Street>& streets, double at) {
     for (const Street& street : streets) {
         if (std::abs(at - street.centre) < street.halfCarriage) return &street;

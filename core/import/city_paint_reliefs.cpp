@@ -8,11 +8,6 @@
 namespace fb::city {
 namespace {
 
-// Place inside a repeating pattern, 0 to 1.
-double phase(double at, double period) {
-    return at / period - std::floor(at / period);
-}
-
 void paintCornice(const BuildingStyle& style, const Relief& relief, const Run& run, const PaintRow& row,
                   float v) {
     const float tone = v > 0.85f ? 1.1f : v < 0.12f ? 0.7f : 1.0f;

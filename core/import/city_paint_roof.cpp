@@ -7,10 +7,6 @@
 namespace fb::city {
 namespace {
 
-double phase(double at, double period) {
-    return at / period - std::floor(at / period);
-}
-
 // Brightness of a slope towards each wall, by the sun of the facades.
 constexpr std::array<float, 4> kSlopeLight{1.12f, 0.86f, 0.72f, 1.0f};
 
