@@ -1,12 +1,14 @@
 // What the program answers to wrong input: one line on standard error, nothing on standard output, exit code 1 or 2.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "run_program.h"
 
 namespace fb {
 namespace {
 
-using test::Run;
+using test::ProgramRun;
 using test::runProgram;
 using test::TemporaryFolder;
 
@@ -15,7 +17,7 @@ void write(const std::filesystem::path& file, const std::string& text) { std::of
 // The smallest mesh that builds: one triangle.
 void writeTriangle(const std::filesystem::path& file) { write(file, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"); }
 
-void expectOneLine(const Run& run, int exitCode, const std::string& part) {
+void expectOneLine(const ProgramRun& run, int exitCode, const std::string& part) {
     EXPECT_EQ(run.exitCode, exitCode) << run.err;
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(run.errLines(), 1) << run.err;
@@ -28,7 +30,7 @@ TEST(CommandLine, AnUnknownOptionIsWrongUsage) { expectOneLine(runProgram("repla
 TEST(CommandLine, ACommandWithoutItsArgumentsIsWrongUsage) { expectOneLine(runProgram("build"), 2, "INPUT"); }
 
 TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
-    const Run help = runProgram("--help");
+    const ProgramRun help = runProgram("--help");
     EXPECT_EQ(help.exitCode, 0);
     EXPECT_NE(help.out.find("replay"), std::string::npos);
     EXPECT_EQ(runProgram("--version").out, "frontbench " FB_VERSION "\n");
@@ -67,7 +69,7 @@ TEST(CommandLine, AnUnwritableOutputIsNamed) {
 
 TEST(CommandLine, AMissingSceneIsNamedByEveryCommandThatOpensOne) {
     const TemporaryFolder folder;
-    for (const std::string command : {"info", "check --progress none", "replay --clock model --out " + (folder / "o").string()}) {
+    for (const std::string& command : std::vector<std::string>{"info", "check --progress none", "replay --clock model --out " + (folder / "o").string()}) {
         expectOneLine(runProgram(command + " /nowhere/s.fbscene"), 1, "/nowhere/s.fbscene");
     }
 }
@@ -101,7 +103,7 @@ TEST(CommandLine, ASceneOfAnotherVersionSaysSo) {
 }
 
 TEST(CommandLine, KnobsAndPresetsAreListedOnStandardOutput) {
-    const Run knobs = runProgram("knobs --json");
+    const ProgramRun knobs = runProgram("knobs --json");
     EXPECT_EQ(knobs.exitCode, 0);
     EXPECT_NE(knobs.out.find("\"select.c_vis\""), std::string::npos);
     EXPECT_EQ(knobs.err, "");

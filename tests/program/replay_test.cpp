@@ -10,7 +10,7 @@ namespace fb {
 namespace {
 
 using test::readText;
-using test::Run;
+using test::ProgramRun;
 using test::runProgram;
 using test::TemporaryFolder;
 
@@ -34,7 +34,7 @@ class Replay : public ::testing::Test {
     static void SetUpTestSuite() {
         folder = std::make_unique<TemporaryFolder>();
         writeHills(*folder / "hills.obj", 60);
-        const Run build = runProgram("build --progress none " + (*folder / "hills.obj").string() + " -o " + scene() +
+        const ProgramRun build = runProgram("build --progress none " + (*folder / "hills.obj").string() + " -o " + scene() +
                                      " --block-triangles 1500 --split grid --set build.desired_triangles=100");
         ASSERT_EQ(build.exitCode, 0) << build.err;
     }
@@ -43,7 +43,7 @@ class Replay : public ::testing::Test {
     static nlohmann::json summaryOf(const std::string& out) {
         return nlohmann::json::parse(readText(*folder / (out + "/summary.json")));
     }
-    static Run replay(const std::string& arguments, const std::string& out, const std::string& program = FB_PROGRAM) {
+    static ProgramRun replay(const std::string& arguments, const std::string& out, const std::string& program = FB_PROGRAM) {
         return runProgram("replay " + scene() + " " + arguments + " --out " + (*folder / out).string(), program);
     }
 
@@ -51,7 +51,7 @@ class Replay : public ::testing::Test {
 };
 
 TEST_F(Replay, TheBuiltSceneIsSound) {
-    const Run check = runProgram("check --progress none " + scene());
+    const ProgramRun check = runProgram("check --progress none " + scene());
     EXPECT_EQ(check.exitCode, 0) << check.out << check.err;
     const nlohmann::json info = nlohmann::json::parse(runProgram("info --json " + scene()).out);
     EXPECT_EQ(info["source_triangles"], 2 * 60 * 60);
@@ -118,7 +118,7 @@ TEST_F(Replay, ABudgetTooSmallForTheRootsNamesTheNumberNeeded) {
                          " --split none --set build.desired_triangles=100000")
                   .exitCode,
               0);
-    const Run run = runProgram("replay " + large + " --clock model --frames 2 --set load.budget=1 --out " +
+    const ProgramRun run = runProgram("replay " + large + " --clock model --frames 2 --set load.budget=1 --out " +
                                (*folder / "o").string());
     EXPECT_EQ(run.exitCode, 1);
     EXPECT_EQ(run.errLines(), 1) << run.err;

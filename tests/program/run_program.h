@@ -38,7 +38,7 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-struct Run {
+struct ProgramRun {
     int exitCode = -1;
     std::string out, err;
 
@@ -46,7 +46,7 @@ struct Run {
 };
 
 // `arguments` as typed in a shell. `program` is the one of this build unless another is named.
-inline Run runProgram(const std::string& arguments, const std::string& program = FB_PROGRAM) {
+inline ProgramRun runProgram(const std::string& arguments, const std::string& program = FB_PROGRAM) {
     const TemporaryFolder folder;
     const std::filesystem::path out = folder / "out";
     const std::filesystem::path err = folder / "err";
