@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/program_folder.h"
 #include "app/build_child.h"
 #include "app/commands.h"
 #include "app/frame.h"
@@ -234,7 +235,7 @@ Result<void> openSession(const OpenCommand& command, Session& s) {
     Result<std::unique_ptr<Window>> window = Window::open(*size, "Frontbench");
     if (!window) return passOn(window);
     s.window = std::move(*window);
-    Result<std::unique_ptr<Renderer>> renderer = Renderer::create(std::filesystem::path(FB_SOURCE_DIR) / "shaders");
+    Result<std::unique_ptr<Renderer>> renderer = Renderer::create(programFolder() / "shaders");
     if (!renderer) return passOn(renderer);
     s.workbench.renderer = std::move(*renderer);
     s.workbench.onFault = [&s](const Error& fault) { complain(s, fault); };

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "base/program_folder.h"
 #include "app/commands.h"
 #include "app/frame.h"
 #include "app/guarded_child.h"
@@ -60,7 +61,7 @@ Result<void> prepare(const ReplayCommand& command, Replay& replay) {
         auto context = OffscreenContext::create();
         if (!context) return passOn(context);
         replay.context = std::move(*context);
-        auto renderer = Renderer::create(std::filesystem::path(FB_SOURCE_DIR) / "shaders");
+        auto renderer = Renderer::create(programFolder() / "shaders");
         if (!renderer) return passOn(renderer);
         w.renderer = std::move(*renderer);
     }

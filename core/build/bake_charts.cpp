@@ -7,7 +7,8 @@
 namespace fb {
 namespace {
 
-// A chart's triangles lean at most this much against its first one (60 degrees): none is seen edge-on or from behind.
+// A chart's triangles lean at most this much against its first one (60 degrees): none is seen edge-on or from
+// behind.
 constexpr double kLeastCosine = 0.5;
 // Texels this far outside a triangle are baked with it, so that filtering at its edge finds them.
 constexpr float kMargin = 1.5f;
@@ -15,7 +16,8 @@ constexpr float kMargin = 1.5f;
 using Corners2 = std::array<glm::vec2, 3>;
 
 glm::dvec3 normalOf(const BlockMesh& mesh, const NodeTriangle& t) {
-    return glm::normalize(crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y], mesh.positions[t.positions.z]));
+    return glm::normalize(
+        crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y], mesh.positions[t.positions.z]));
 }
 
 // How deep inside a triangle a point lies, in texels (negative outside: distance to the worst edge's line).
@@ -32,8 +34,10 @@ float insideness(const Corners2& t, const glm::vec2& p) {
 // Calls visit(x, y, inside) for the texels whose centres lie in the triangle or up to `margin` outside.
 template <class Visit>
 void visitTexels(const Corners2& t, float margin, Visit&& visit) {
-    const float low = std::min(t[0].y, std::min(t[1].y, t[2].y)), high = std::max(t[0].y, std::max(t[1].y, t[2].y));
-    for (int y = static_cast<int>(std::floor(low - margin)); y < static_cast<int>(std::ceil(high + margin)); ++y) {
+    const float low = std::min(t[0].y, std::min(t[1].y, t[2].y)),
+                high = std::max(t[0].y, std::max(t[1].y, t[2].y));
+    for (int y = static_cast<int>(std::floor(low - margin)); y < static_cast<int>(std::ceil(high + margin));
+         ++y) {
         const float centre = static_cast<float>(y) + 0.5f;
         const float top = centre - margin, bottom = centre + margin;
         float left = std::numeric_limits<float>::max(), right = std::numeric_limits<float>::lowest();
@@ -49,7 +53,8 @@ void visitTexels(const Corners2& t, float margin, Visit&& visit) {
             }
         }
         if (left > right) continue;
-        for (int x = static_cast<int>(std::floor(left - margin)); x < static_cast<int>(std::ceil(right + margin)); ++x) {
+        for (int x = static_cast<int>(std::floor(left - margin));
+             x < static_cast<int>(std::ceil(right + margin)); ++x) {
             const float inside = insideness(t, {static_cast<float>(x) + 0.5f, centre});
             if (inside >= -margin) visit(x, y, inside);
         }
@@ -84,7 +89,10 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> findNeighbours(std::span<co
 class ChartGrower {
   public:
     ChartGrower(std::span<NodeTriangle> triangles, const BlockMesh& mesh, double texelsPerGridUnit)
-        : triangles_(triangles), mesh_(mesh), density_(texelsPerGridUnit), neighbours_(findNeighbours(triangles)) {}
+        : triangles_(triangles),
+          mesh_(mesh),
+          density_(texelsPerGridUnit),
+          neighbours_(findNeighbours(triangles)) {}
 
     Chart grow(std::uint32_t seed, std::uint32_t chartNumber) {
         taken_.clear();
@@ -114,7 +122,8 @@ class ChartGrower {
             }
             chart.triangles.push_back(queue[at]);
             auto next = std::lower_bound(neighbours_.begin(), neighbours_.end(), std::pair(queue[at], 0u));
-            for (; next != neighbours_.end() && next->first == queue[at]; ++next) queue.push_back(next->second);
+            for (; next != neighbours_.end() && next->first == queue[at]; ++next)
+                queue.push_back(next->second);
         }
         low = glm::floor(low);
         for (const std::uint32_t i : chart.triangles) {
@@ -142,7 +151,8 @@ class ChartGrower {
         bool free = true;
         visitTexels(corners, 0.0f, [&](int x, int y, float inside) {
             if (inside < 0.25f) return;
-            const std::uint64_t key = std::uint64_t{static_cast<std::uint32_t>(x)} << 32 | static_cast<std::uint32_t>(y);
+            const std::uint64_t key =
+                std::uint64_t{static_cast<std::uint32_t>(x)} << 32 | static_cast<std::uint32_t>(y);
             free = free && !taken_.contains(key);
             claimed_.push_back(key);
         });
@@ -162,7 +172,8 @@ class ChartGrower {
 
 }  // namespace
 
-void addBakedCharts(std::span<NodeTriangle> triangles, const BlockMesh& mesh, double texelsPerGridUnit, ChartSet& set) {
+void addBakedCharts(std::span<NodeTriangle> triangles, const BlockMesh& mesh, double texelsPerGridUnit,
+                    ChartSet& set) {
     for (NodeTriangle& t : triangles) {
         if (t.baked) t.chart = kNone;
     }
@@ -187,7 +198,12 @@ void bakeChart(const Chart& chart, std::span<const NodeTriangle> triangles, cons
             if (inside > texel.inside) texel = {inside, i};
         });
     }
-    const double side = 1.0 / texelsPerGridUnit;
+    // A texel is the mean of several points of the original: averaging in the texture instead, by its coarser
+    // levels, would mix in what lies beside a chart there. One point for two texels of the original, no more
+    // than nine.
+    const double texelsAcross = surface.texelsPerGridUnit() / texelsPerGridUnit;
+    const int points = std::clamp(static_cast<int>(std::ceil(0.5 * texelsAcross)), 1, 3);
+    const double side = 1.0 / (texelsPerGridUnit * points);
     const auto channels = static_cast<std::size_t>(into.atlas.channels);
     std::uint32_t near = kNone;
     for (int y = 0; y < chart.height; ++y) {
@@ -195,19 +211,28 @@ void bakeChart(const Chart& chart, std::span<const NodeTriangle> triangles, cons
             const std::uint32_t owner = owners[static_cast<std::size_t>(y) * chart.width + x].triangle;
             if (owner == kNone) continue;
             const NodeTriangle& t = triangles[owner];
-            const glm::vec3 centre(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 0.0f);
-            const TriangleCorners flat = {glm::vec3(t.texels[0], 0), glm::vec3(t.texels[1], 0), glm::vec3(t.texels[2], 0)};
-            const glm::vec3 weights = closestOnTriangle(centre, flat).weights;
-            glm::vec3 point(0.0f);
-            for (int k = 0; k < 3; ++k) point += glm::vec3(mesh.positions[t.positions[k]]) * weights[k];
             const glm::vec3 normal(normalOf(mesh, t));
-            const PieceSurface::Hit hit = surface.closest(point, normal, near);
-            near = hit.triangle;
-            const glm::u8vec4 colour = surface.colourAt(hit, side);
+            const TriangleCorners flat = {glm::vec3(t.texels[0], 0), glm::vec3(t.texels[1], 0),
+                                          glm::vec3(t.texels[2], 0)};
+            glm::uvec4 sum(0u);
+            for (int i = 0; i < points * points; ++i) {
+                const glm::vec2 in(static_cast<float>(i % points) + 0.5f,
+                                   static_cast<float>(i / points) + 0.5f);
+                const glm::vec2 at =
+                    glm::vec2(static_cast<float>(x), static_cast<float>(y)) + in / static_cast<float>(points);
+                const glm::vec3 weights = closestOnTriangle(glm::vec3(at, 0.0f), flat).weights;
+                glm::vec3 point(0.0f);
+                for (int k = 0; k < 3; ++k) point += glm::vec3(mesh.positions[t.positions[k]]) * weights[k];
+                const PieceSurface::Hit hit = surface.closest(point, normal, near);
+                near = hit.triangle;
+                sum += glm::uvec4(surface.colourAt(hit, side));
+            }
             const std::size_t at = static_cast<std::size_t>(chart.y + y) * into.atlas.width + (chart.x + x);
             into.known[at] = 1;
+            const auto count = static_cast<unsigned>(points * points);
             for (std::size_t c = 0; c < channels; ++c) {
-                into.atlas.pixels[at * channels + c] = colour[static_cast<int>(c)];
+                into.atlas.pixels[at * channels + c] =
+                    static_cast<std::uint8_t>((sum[static_cast<int>(c)] + count / 2) / count);
             }
         }
     }

@@ -1,8 +1,8 @@
 // A block on its integer grid, the form in which it is cut and simplified (thesis 3.2).
-// Comes from quantise_block; split_mesh cuts it into pieces, simplify_level simplifies those, finish_node makes nodes.
-// Positions are unique: two triangles that touch share position numbers, so a cut through a shared edge is computed
-// once. A wedge is what a triangle sees of a position: texture coordinate, colour and surface; normals are kept apart,
-// by corner, so that creases do not hinder the simplifiers.
+// Comes from quantise_block; split_mesh cuts it into pieces, simplify_level simplifies those, finish_node
+// makes nodes. Positions are unique: two triangles that touch share position numbers, so a cut through a
+// shared edge is computed once. A wedge is what a triangle sees of a position: texture coordinate, colour and
+// surface; normals are kept apart, by corner, so that creases do not hinder the simplifiers.
 #pragma once
 
 #include <cstdint>

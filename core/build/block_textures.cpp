@@ -14,7 +14,8 @@ Image toColour(const Image& image, bool wantAlpha) {
     const bool hasAlpha = image.channels == 2 || image.channels == 4;
     Image result{image.width, image.height, wantAlpha && hasAlpha ? 4 : 3, {}, image.lossless};
     const std::size_t count = static_cast<std::size_t>(image.width) * image.height;
-    const auto from = static_cast<std::size_t>(image.channels), to = static_cast<std::size_t>(result.channels);
+    const auto from = static_cast<std::size_t>(image.channels),
+               to = static_cast<std::size_t>(result.channels);
     result.pixels.resize(count * to);
     const bool grey = image.channels <= 2;
     for (std::size_t i = 0; i < count; ++i) {
@@ -48,7 +49,8 @@ std::vector<Usage> countUsage(const SourceBlock& block) {
 }  // namespace
 
 const Image& TextureLevels::level(int level) {
-    while (static_cast<int>(levels.size()) <= level && (levels.back().width > 1 || levels.back().height > 1)) {
+    while (static_cast<int>(levels.size()) <= level &&
+           (levels.back().width > 1 || levels.back().height > 1)) {
         const Image& finer = levels.back();
         Image half{std::max(1, finer.width / 2), std::max(1, finer.height / 2), finer.channels, {}, false};
         half.pixels.resize(static_cast<std::size_t>(half.width) * half.height * half.channels);
@@ -68,9 +70,9 @@ BlockTextures decodeTextures(const SourceBlock& block) {
         const SourceTexture& source = block.textures[i];
         Result<Image> image = loadTexture(source);
         if (!image) {
-            result.warnings.push_back("texture " + source.name + " cannot be used: its " +
-                                      std::to_string(usage[i].triangles) +
-                                      " triangles are drawn in their base colour: " + image.error().oneLine());
+            result.warnings.push_back(
+                "texture " + source.name + " cannot be used: its " + std::to_string(usage[i].triangles) +
+                " triangles are drawn in their base colour: " + image.error().oneLine());
             continue;
         }
         const bool fromFile = !source.file.empty() || !source.encoded.empty();
@@ -82,7 +84,8 @@ BlockTextures decodeTextures(const SourceBlock& block) {
     return result;
 }
 
-void fillUnusedTexels(BlockTextures& textures, const BlockMesh& mesh, std::span<const MeshTriangle> triangles) {
+void fillUnusedTexels(BlockTextures& textures, const BlockMesh& mesh,
+                      std::span<const MeshTriangle> triangles) {
     std::vector<std::vector<std::uint8_t>> shown(textures.textures.size());
     for (std::size_t i = 0; i < shown.size(); ++i) {
         if (!textures.textures[i]) continue;
@@ -123,15 +126,17 @@ glm::vec4 sampleTexture(TextureLevels& texture, const glm::vec2& uv, float footp
     const Image& image = texture.level(wanted);
     const glm::vec2 inTile = uv - glm::floor(uv);
     // Within one tile: the opposite edge of the picture must not bleed in.
-    const float x = std::clamp(inTile.x * static_cast<float>(image.width) - 0.5f, 0.0f, static_cast<float>(image.width - 1));
-    const float y =
-        std::clamp(inTile.y * static_cast<float>(image.height) - 0.5f, 0.0f, static_cast<float>(image.height - 1));
+    const float x = std::clamp(inTile.x * static_cast<float>(image.width) - 0.5f, 0.0f,
+                               static_cast<float>(image.width - 1));
+    const float y = std::clamp(inTile.y * static_cast<float>(image.height) - 0.5f, 0.0f,
+                               static_cast<float>(image.height - 1));
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const int x1 = std::min(x0 + 1, image.width - 1), y1 = std::min(y0 + 1, image.height - 1);
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
     glm::vec4 result(0, 0, 0, 255);
     const auto texel = [&](int tx, int ty, int c) {
-        return static_cast<float>(image.pixels[(static_cast<std::size_t>(ty) * image.width + tx) * image.channels + c]);
+        return static_cast<float>(
+            image.pixels[(static_cast<std::size_t>(ty) * image.width + tx) * image.channels + c]);
     };
     for (int c = 0; c < image.channels; ++c) {
         const float top = texel(x0, y0, c) * (1 - fx) + texel(x1, y0, c) * fx;

@@ -1,6 +1,6 @@
-// The textures of a block while it is built: each decoded once, texels that no triangle shows filled with what lies
-// around them (so that no background bleeds into coarse levels), and halved versions for coarse sampling.
-// Comes from SourceBlock; goes to make_charts, fill_atlas and bake_charts.
+// The textures of a block while it is built: each decoded once, texels that no triangle shows filled with
+// what lies around them (so that no background bleeds into coarse levels), and halved versions for coarse
+// sampling. Comes from SourceBlock; goes to make_charts, fill_atlas and bake_charts.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,8 @@
 
 namespace fb {
 
-// levels[0] is the texture, each further one half of the one before. 3 channels, or 4 where a material cuts holes.
+// levels[0] is the texture, each further one half of the one before. 3 channels, or 4 where a material cuts
+// holes.
 struct TextureLevels {
     std::vector<Image> levels;
 
@@ -25,7 +26,8 @@ struct TextureLevels {
 };
 
 struct BlockTextures {
-    std::vector<std::optional<TextureLevels>> textures;  // by SourceBlock::textures; empty: unused or unreadable
+    std::vector<std::optional<TextureLevels>>
+        textures;               // by SourceBlock::textures; empty: unused or unreadable
     bool losslessFiles = true;  // every used texture was decoded from a lossless file
     std::uint64_t texels = 0;   // of all used textures
     std::vector<std::string> warnings;
@@ -35,10 +37,11 @@ struct BlockTextures {
 [[nodiscard]] BlockTextures decodeTextures(const SourceBlock& block);
 
 // Marks the texels that the triangles touch and fills the others.
-void fillUnusedTexels(BlockTextures& textures, const BlockMesh& mesh, std::span<const MeshTriangle> triangles);
+void fillUnusedTexels(BlockTextures& textures, const BlockMesh& mesh,
+                      std::span<const MeshTriangle> triangles);
 
-// The texture's colour at `uv`, which may repeat, averaged over squares of about `footprint` texels. Alpha is 255 where the
-// texture has none.
+// The texture's colour at `uv`, which may repeat, averaged over squares of about `footprint` texels. Alpha is
+// 255 where the texture has none.
 [[nodiscard]] glm::vec4 sampleTexture(TextureLevels& texture, const glm::vec2& uv, float footprint);
 
 }  // namespace fb

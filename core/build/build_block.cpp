@@ -3,6 +3,7 @@
 
 #include "base/check.h"
 #include "build/build_scene.h"
+#include "build/check_block.h"
 #include "build/finish_node.h"
 #include "build/make_atlas.h"
 #include "build/measure_error.h"
@@ -17,16 +18,17 @@ constexpr std::uint64_t kLosslessTexels = 4'000'000;
 
 class BlockBuilder {
   public:
-    BlockBuilder(const SourceBlock& source, const BuildSettings& settings) : source_(source), settings_(settings) {}
+    BlockBuilder(const SourceBlock& source, const BuildSettings& settings)
+        : source_(source), settings_(settings) {}
 
     Result<BlockBuild> run() {
+        if (Result<void> sound = checkBlock(source_); !sound) return passOn(sound);
         textures_ = decodeTextures(source_);
-        Result<QuantisedBlock> quantised = quantiseBlock(source_, textures_);
-        if (!quantised) return passOn(quantised);
-        mesh_ = std::move(quantised->mesh);
-        reportSource(*quantised);
+        QuantisedBlock quantised = quantiseBlock(source_, textures_);
+        reportSource(quantised);
+        mesh_ = std::move(quantised.mesh);
         Level level;
-        level.triangles = std::move(quantised->triangles);
+        level.triangles = std::move(quantised.triangles);
         if (level.triangles.empty()) {
             warn("block " + source_.name + " has no triangles and is left out");
             return std::move(result_);
@@ -54,8 +56,8 @@ class BlockBuilder {
         }
     }
 
-    // Level by level, from the root to the leaves: a level is simplified before it is cut for the next, so that only
-    // the planes that made it are locked.
+    // Level by level, from the root to the leaves: a level is simplified before it is cut for the next, so
+    // that only the planes that made it are locked.
     Result<void> buildLevels(Level level) {
         const auto triangles = static_cast<double>(level.triangles.size());
         const auto desired = static_cast<double>(settings_.desiredTriangles);
@@ -72,7 +74,9 @@ class BlockBuilder {
                 if (depth > 0) ++result_.block.nodes[node.parentInBlock].childCount;
                 result_.block.nodes.push_back(node);
             }
-            if (Result<void> done = leaves ? finishLeaves(level, firstNode) : finishInner(level, factor, firstNode); !done) {
+            if (Result<void> done =
+                    leaves ? finishLeaves(level, firstNode) : finishInner(level, factor, firstNode);
+                !done) {
                 return done;
             }
             if (leaves) return {};
@@ -96,9 +100,11 @@ class BlockBuilder {
     Result<void> finishInner(const Level& level, double factor, std::uint32_t firstNode) {
         std::vector<std::size_t> aims;
         for (const Piece& piece : level.pieces) aims.push_back(simplificationAim(piece.size(), factor));
-        const std::vector<SimplifiedPiece> simplified = simplifyLevel(mesh_, level, aims, settings_.simplifier);
+        const std::vector<SimplifiedPiece> simplified =
+            simplifyLevel(mesh_, level, aims, settings_.simplifier);
         std::vector<std::uint32_t> scratch(mesh_.positions.size(), kNone);
-        const bool anyWelded = std::any_of(simplified.begin(), simplified.end(), [](const auto& s) { return s.welded; });
+        const bool anyWelded =
+            std::any_of(simplified.begin(), simplified.end(), [](const auto& s) { return s.welded; });
         std::vector<std::uint32_t> charts;
         if (anyWelded) charts = chartsOfWedges(mesh_, level.triangles);
         const double scale = 1.0 / std::sqrt(factor);
@@ -108,7 +114,8 @@ class BlockBuilder {
             std::vector<NodeTriangle> dressed;
             if (simplified[i].welded) {
                 surface.emplace(mesh_, piece, textures_);
-                dressed = dressWelded({mesh_, piece, *surface, textures_, charts, scale}, simplified[i], scratch);
+                dressed =
+                    dressWelded({mesh_, piece, *surface, textures_, charts, scale}, simplified[i], scratch);
             } else {
                 dressed = dressSeamed(mesh_, piece, simplified[i], scratch);
             }
@@ -117,7 +124,9 @@ class BlockBuilder {
                 measureError(mesh_, piece, dressed, simplified[i].errorGridUnits) * mesh_.grid.step);
             result_.report.stuckNodes += simplified[i].stuck ? 1 : 0;
             carried_ += simplified[i].carriedTriangles;
-            if (Result<void> done = finish(dressed, surface ? &*surface : nullptr, scale, firstNode + i); !done) return done;
+            if (Result<void> done = finish(dressed, surface ? &*surface : nullptr, scale, firstNode + i);
+                !done)
+                return done;
         }
         return {};
     }
@@ -150,7 +159,8 @@ class BlockBuilder {
     [[nodiscard]] PayloadCodec codecFor(const Image& atlas) const {
         if (atlas.channels == 4 || settings_.textureCodec == TextureCodec::lossless) return PayloadCodec::png;
         if (settings_.textureCodec == TextureCodec::jpeg) return PayloadCodec::jpeg;
-        return textures_.losslessFiles && textures_.texels <= kLosslessTexels ? PayloadCodec::png : PayloadCodec::jpeg;
+        return textures_.losslessFiles && textures_.texels <= kLosslessTexels ? PayloadCodec::png
+                                                                              : PayloadCodec::jpeg;
     }
 
     [[nodiscard]] static std::span<const MeshTriangle> pieceOf(const Level& level, std::size_t i) {
@@ -163,7 +173,8 @@ class BlockBuilder {
         for (std::size_t i = nodes.size(); i-- > 1;) {
             BuiltNode& parent = nodes[nodes[i].parentInBlock];
             parent.bounds.grow(nodes[i].bounds);
-            parent.geometricErrorMetres = std::max(parent.geometricErrorMetres, nodes[i].geometricErrorMetres);
+            parent.geometricErrorMetres =
+                std::max(parent.geometricErrorMetres, nodes[i].geometricErrorMetres);
         }
     }
 
@@ -171,11 +182,13 @@ class BlockBuilder {
         BuildReport& report = result_.report;
         report.nodes = result_.block.nodes.size();
         for (const BuiltNode& node : result_.block.nodes) {
-            if (node.childCount == 0) report.leafAreaSquareMetres += static_cast<double>(node.areaSquareMetres);
+            if (node.childCount == 0)
+                report.leafAreaSquareMetres += static_cast<double>(node.areaSquareMetres);
         }
         const std::string block = "block " + source_.name + ": ";
         if (carried_ > 0) {
-            warn(block + std::to_string(carried_) + " non-manifold triangles could not be simplified with OpenMesh");
+            warn(block + std::to_string(carried_) +
+                 " non-manifold triangles could not be simplified with OpenMesh");
         }
         if (reduced_ > 0) {
             warn(block + "the textures of " + std::to_string(reduced_) +
@@ -183,7 +196,8 @@ class BlockBuilder {
         }
         if (replaced_ > 0) {
             warn(block + std::to_string(replaced_) +
-                 " nodes have too many texture parts for build.max_texture_side and are drawn in vertex colours");
+                 " nodes have too many texture parts for build.max_texture_side and are drawn in vertex "
+                 "colours");
         }
         if (blurredRepeats_ > 0) {
             warn(block + std::to_string(blurredRepeats_) +

@@ -51,7 +51,8 @@ BuildReport reportReused(const SourceBlock& source, const BuiltBlock& block) {
     return report;
 }
 
-Result<void> writePack(const SceneTask& task, std::uint32_t index, std::uint64_t blockHash, BlockBuild& built) {
+Result<void> writePack(const SceneTask& task, std::uint32_t index, std::uint64_t blockHash,
+                       BlockBuild& built) {
     Result<PackWriter> pack = PackWriter::create(task.folder, index);
     if (!pack) return passOn(pack);
     for (std::size_t i = 0; i < built.nodes.size(); ++i) {
@@ -135,7 +136,8 @@ SceneInfo describe(const SceneTask& task, const BuildReport& report, const std::
     info.origin = source.origin;
     info.up = source.up;
     for (const BuiltBlock& block : blocks) {
-        if (!block.nodes.empty()) info.bounds.grow(Box3d{block.nodes[0].bounds.min, block.nodes[0].bounds.max});
+        if (!block.nodes.empty())
+            info.bounds.grow(Box3d{block.nodes[0].bounds.min, block.nodes[0].bounds.max});
     }
     info.sourceTriangles = report.sourceTriangles;
     info.sourceAreaSquareMetres = report.sourceAreaSquareMetres;
@@ -186,7 +188,8 @@ Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& s
         return failure(folder.string(), {}, "the build was stopped",
                        "finished blocks are kept: run it again to go on");
     }
-    if (report.nodes == 0) return failure(source.info().name, {}, "there is no triangle to build a scene from");
+    if (report.nodes == 0)
+        return failure(source.info().name, {}, "there is no triangle to build a scene from");
     if (Result<void> written = writeScene(folder, describe(task, report, blocks), blocks); !written) {
         return passOn(written);
     }

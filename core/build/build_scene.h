@@ -1,6 +1,6 @@
 // Building: a BlockSource becomes a scene folder (thesis ch. 3, algorithms section 1).
-// Blocks are built in parallel (oneTBB), each one alone in memory, and written as they finish; a killed build is taken
-// up again by the packs that it had finished.
+// Blocks are built in parallel (oneTBB), each one alone in memory, and written as they finish; a killed build
+// is taken up again by the packs that it had finished.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +15,9 @@ namespace fb {
 // What happened to the pieces; told to the user and kept in tests.
 struct BuildReport {
     std::uint64_t blocks = 0, reusedBlocks = 0, nodes = 0, emptyPieces = 0;
-    std::uint64_t stuckNodes = 0;         // simplification stopped at more than 1.5 times its aim
-    std::uint64_t sourceTriangles = 0;    // of the blocks, before cutting
-    std::uint64_t leafTriangles = 0;      // after cutting
+    std::uint64_t stuckNodes = 0;       // simplification stopped at more than 1.5 times its aim
+    std::uint64_t sourceTriangles = 0;  // of the blocks, before cutting
+    std::uint64_t leafTriangles = 0;    // after cutting
     double sourceAreaSquareMetres = 0.0, leafAreaSquareMetres = 0.0;
     double seconds = 0.0;
     std::vector<std::string> warnings;
@@ -31,8 +31,8 @@ struct BlockBuild {
 };
 [[nodiscard]] Result<BlockBuild> buildBlock(const SourceBlock& source, const BuildSettings& settings);
 
-// Builds every block of `source` into `folder`. Errors: folder not writable, a block that cannot be loaded, stopped
-// by `progress`.
+// Builds every block of `source` into `folder`. Errors: folder not writable, a block that cannot be loaded,
+// stopped by `progress`.
 [[nodiscard]] Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& settings,
                                              const std::filesystem::path& folder, const Progress& progress);
 

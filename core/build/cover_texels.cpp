@@ -6,17 +6,20 @@
 namespace fb {
 namespace {
 
-std::int64_t firstTexel(double low) { return static_cast<std::int64_t>(std::floor(low + kTexelTolerance)); }
+std::int64_t firstTexel(double low) {
+    return static_cast<std::int64_t>(std::floor(low + kTexelTolerance));
+}
 
 // One beyond the last; at least one texel is taken.
 std::int64_t endTexel(double high, std::int64_t first) {
     return std::max(first + 1, static_cast<std::int64_t>(std::ceil(high - kTexelTolerance)));
 }
 
-void coverSpan(std::int64_t first, std::int64_t end, std::int64_t row, int width, int height,
-               std::vector<std::uint8_t>& shown) {
+void markSpan(std::int64_t first, std::int64_t end, std::int64_t row, int width, int height,
+              std::vector<std::uint8_t>& shown) {
     const auto wrap = [](std::int64_t at, int size) { return ((at % size) + size) % size; };
-    std::uint8_t* line = shown.data() + static_cast<std::size_t>(wrap(row, height)) * static_cast<std::size_t>(width);
+    std::uint8_t* line =
+        shown.data() + static_cast<std::size_t>(wrap(row, height)) * static_cast<std::size_t>(width);
     if (end - first >= width) {
         std::fill_n(line, width, std::uint8_t{1});
         return;
@@ -29,7 +32,8 @@ void coverSpan(std::int64_t first, std::int64_t end, std::int64_t row, int width
 
 }  // namespace
 
-void coverTexels(const std::array<glm::dvec2, 3>& corners, int width, int height, std::vector<std::uint8_t>& shown) {
+void coverTexels(const std::array<glm::dvec2, 3>& corners, int width, int height,
+                 std::vector<std::uint8_t>& shown) {
     const glm::dvec2 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
     const glm::dvec2 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
     // Repeats many times: shows all of it.
@@ -61,7 +65,7 @@ void coverTexels(const std::array<glm::dvec2, 3>& corners, int width, int height
         }
         if (left > right) continue;
         const std::int64_t first = firstTexel(left);
-        coverSpan(first, endTexel(right, first), row, width, height, shown);
+        markSpan(first, endTexel(right, first), row, width, height, shown);
     }
 }
 

@@ -22,22 +22,25 @@ struct OriginalCorner {
 // The corners of the original at the positions that the simplified triangles still use.
 class OriginalCorners {
   public:
-    OriginalCorners(const BlockMesh& mesh, std::span<const MeshTriangle> piece, const SimplifiedPiece& simplified,
-                    std::vector<std::uint32_t>& scratch)
+    OriginalCorners(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
+                    const SimplifiedPiece& simplified, std::vector<std::uint32_t>& scratch)
         : scratch_(scratch) {
         FB_CHECK(scratch.size() == mesh.positions.size());
         for (const glm::uvec3& ids : simplified.triangles) {
-            for (int k = 0; k < 3; ++k) scratch_[simplified.welded ? ids[k] : mesh.wedges[ids[k]].position] = 0;
+            for (int k = 0; k < 3; ++k)
+                scratch_[simplified.welded ? ids[k] : mesh.wedges[ids[k]].position] = 0;
         }
         for (const MeshTriangle& triangle : piece) {
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t position = mesh.wedges[triangle.wedges[k]].position;
-                if (scratch_[position] != kNone) corners_.push_back({position, triangle.wedges[k], triangle.normals[k]});
+                if (scratch_[position] != kNone)
+                    corners_.push_back({position, triangle.wedges[k], triangle.normals[k]});
             }
         }
         std::sort(corners_.begin(), corners_.end());
         corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-        for (std::size_t i = corners_.size(); i-- > 0;) scratch_[corners_[i].position] = static_cast<std::uint32_t>(i);
+        for (std::size_t i = corners_.size(); i-- > 0;)
+            scratch_[corners_[i].position] = static_cast<std::uint32_t>(i);
     }
     ~OriginalCorners() {
         for (const OriginalCorner& corner : corners_) scratch_[corner.position] = kNone;
@@ -57,7 +60,8 @@ class OriginalCorners {
     std::vector<std::uint32_t>& scratch_;
 };
 
-// Of the normals that the original has at a wedge (or, for kNone, at a position) the one closest to the face's.
+// Of the normals that the original has at a wedge (or, for kNone, at a position) the one closest to the
+// face's.
 glm::vec3 chooseNormal(const BlockMesh& mesh, std::span<const OriginalCorner> corners, std::uint32_t wedge,
                        const glm::vec3& face) {
     glm::vec3 best = face;
@@ -85,7 +89,8 @@ NodeTriangle dressWedges(const BlockMesh& mesh, const glm::uvec3& wedges) {
 
 class WeldedDresser {
   public:
-    WeldedDresser(const WeldedDress& dress, const OriginalCorners& corners) : dress_(dress), corners_(corners) {}
+    WeldedDresser(const WeldedDress& dress, const OriginalCorners& corners)
+        : dress_(dress), corners_(corners) {}
 
     NodeTriangle dress(const glm::uvec3& positions) {
         const BlockMesh& mesh = dress_.mesh;
@@ -121,7 +126,8 @@ class WeldedDresser {
                 float nearest = std::numeric_limits<float>::infinity();
                 for (const OriginalCorner& other : corners_.at(positions[k])) {
                     if (dress_.chartOfWedge[other.wedge] != dress_.chartOfWedge[first.wedge]) continue;
-                    const glm::vec2 apart = dress_.mesh.wedges[other.wedge].uv - dress_.mesh.wedges[first.wedge].uv;
+                    const glm::vec2 apart =
+                        dress_.mesh.wedges[other.wedge].uv - dress_.mesh.wedges[first.wedge].uv;
                     if (glm::dot(apart, apart) >= nearest) continue;
                     nearest = glm::dot(apart, apart);
                     wedges[k] = other.wedge;
@@ -142,11 +148,13 @@ class WeldedDresser {
     }
 
     static constexpr std::array<glm::vec3, 4> kProbes = {glm::vec3(1.0f / 3.0f), glm::vec3(0.5f, 0.5f, 0.0f),
-                                                         glm::vec3(0.0f, 0.5f, 0.5f), glm::vec3(0.5f, 0.0f, 0.5f)};
+                                                         glm::vec3(0.0f, 0.5f, 0.5f),
+                                                         glm::vec3(0.5f, 0.0f, 0.5f)};
 
-    // Whether the original between the corners shows what the triangle would: the same chart, and texels that lie
-    // within a tenth of the triangle's size, or two texels of the node.
-    [[nodiscard]] bool agrees(const glm::uvec3& positions, const glm::uvec3& wedges, const glm::vec3& face) const {
+    // Whether the original between the corners shows what the triangle would: the same chart, and texels that
+    // lie within a tenth of the triangle's size, or two texels of the node.
+    [[nodiscard]] bool agrees(const glm::uvec3& positions, const glm::uvec3& wedges,
+                              const glm::vec3& face) const {
         const BlockMesh& mesh = dress_.mesh;
         const Surface& surface = mesh.surfaces[mesh.wedges[wedges.x].surface];
         if (surface.texture < 0) return true;
@@ -154,7 +162,9 @@ class WeldedDresser {
         const glm::vec2 texels(texture.width(), texture.height());
         float size = 0.0f;
         for (int k = 0; k < 3; ++k) {
-            size = std::max(size, glm::length((mesh.wedges[wedges[k]].uv - mesh.wedges[wedges[(k + 1) % 3]].uv) * texels));
+            size = std::max(
+                size,
+                glm::length((mesh.wedges[wedges[k]].uv - mesh.wedges[wedges[(k + 1) % 3]].uv) * texels));
         }
         const float tolerance = std::max(0.1f * size, static_cast<float>(2.0 / dress_.texelScale));
         for (const glm::vec3& weights : kProbes) {
@@ -170,15 +180,18 @@ class WeldedDresser {
 
     [[nodiscard]] bool isTextured(const glm::uvec3& positions, const glm::vec3& face) const {
         return std::any_of(kProbes.begin(), kProbes.end(), [&](const glm::vec3& weights) {
-            return dress_.surface.surfaceOf(dress_.surface.closest(pointOf(positions, weights), face, kNone)) != 0;
+            return dress_.surface.surfaceOf(
+                       dress_.surface.closest(pointOf(positions, weights), face, kNone)) != 0;
         });
     }
 
     // The original's colour near a corner, a little inside: at the corner itself several meet.
-    [[nodiscard]] glm::u8vec4 colourNear(const glm::uvec3& positions, int corner, const glm::vec3& face) const {
+    [[nodiscard]] glm::u8vec4 colourNear(const glm::uvec3& positions, int corner,
+                                         const glm::vec3& face) const {
         glm::vec3 weights(0.05f);
         weights[corner] = 0.9f;
-        return dress_.surface.vertexColourAt(dress_.surface.closest(pointOf(positions, weights), face, kNone));
+        return dress_.surface.vertexColourAt(
+            dress_.surface.closest(pointOf(positions, weights), face, kNone));
     }
 
     const WeldedDress& dress_;
@@ -203,7 +216,8 @@ std::vector<NodeTriangle> dressOriginal(const BlockMesh& mesh, std::span<const M
 }
 
 std::vector<NodeTriangle> dressSeamed(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
-                                      const SimplifiedPiece& simplified, std::vector<std::uint32_t>& scratch) {
+                                      const SimplifiedPiece& simplified,
+                                      std::vector<std::uint32_t>& scratch) {
     FB_CHECK(!simplified.welded);
     const OriginalCorners corners(mesh, piece, simplified, scratch);
     std::vector<NodeTriangle> result;

@@ -18,9 +18,8 @@ class VertexMaker {
   public:
     std::uint32_t findOrAdd(const NodeVertex& vertex) {
         const std::uint64_t hash = hashBytes(&vertex, sizeof(vertex));
-        const std::uint32_t found = index_.find(hash, [&](std::uint32_t i) {
-            return std::memcmp(&vertices[i], &vertex, sizeof(vertex)) == 0;
-        });
+        const std::uint32_t found = index_.find(
+            hash, [&](std::uint32_t i) { return std::memcmp(&vertices[i], &vertex, sizeof(vertex)) == 0; });
         if (found != kNone) return found;
         index_.insert(hash, static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back(vertex);
@@ -35,14 +34,19 @@ class VertexMaker {
 
 float roundDown(double value) {
     const auto rounded = static_cast<float>(value);
-    return static_cast<double>(rounded) > value ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
+    return static_cast<double>(rounded) > value
+               ? std::nextafter(rounded, -std::numeric_limits<float>::infinity())
+               : rounded;
 }
 
-float roundUp(double value) { return -roundDown(-value); }
+float roundUp(double value) {
+    return -roundDown(-value);
+}
 
 }  // namespace
 
-NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> triangles, int atlasWidth, int atlasHeight) {
+NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> triangles, int atlasWidth,
+                      int atlasHeight) {
     NodeMesh result;
     VertexMaker maker;
     std::vector<std::uint32_t> parts[2];  // textured, untextured
@@ -51,8 +55,13 @@ NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> trian
         result.flags.alphaMask = result.flags.alphaMask || mesh.surfaces[triangle.surface].alphaMask;
         for (std::size_t k = 0; k < 3; ++k) {
             const GridPoint& at = mesh.positions[triangle.positions[static_cast<int>(k)]];
-            NodeVertex vertex{static_cast<std::uint32_t>(at.x), static_cast<std::uint32_t>(at.y),
-                              static_cast<std::uint32_t>(at.z), {}, 0, 0, {}};
+            NodeVertex vertex{static_cast<std::uint32_t>(at.x),
+                              static_cast<std::uint32_t>(at.y),
+                              static_cast<std::uint32_t>(at.z),
+                              {},
+                              0,
+                              0,
+                              {}};
             encodeNormal(triangle.normals[k], vertex.normal);
             if (textured) {
                 vertex.u = toUnorm16(triangle.texels[k].x, atlasWidth);
@@ -71,7 +80,8 @@ NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> trian
     return result;
 }
 
-void measureNode(const BlockMesh& mesh, std::span<const NodeTriangle> triangles, const NodeMesh& made, BuiltNode& node) {
+void measureNode(const BlockMesh& mesh, std::span<const NodeTriangle> triangles, const NodeMesh& made,
+                 BuiltNode& node) {
     const double step = mesh.grid.step;
     glm::dvec3 normals(0.0);
     double area = 0.0;

@@ -30,7 +30,8 @@ void addTexture(Hasher& hasher, const SourceTexture& texture) {
     addArray(hasher, texture.encoded);
     if (!texture.image) return;
     const Image& image = *texture.image;
-    for (const int number : {image.width, image.height, image.channels}) hasher.number(static_cast<std::uint64_t>(number));
+    for (const int number : {image.width, image.height, image.channels})
+        hasher.number(static_cast<std::uint64_t>(number));
     hasher.number(std::uint64_t{image.lossless ? 1u : 0u});
     addArray(hasher, image.pixels);
 }

@@ -1,4 +1,5 @@
-// Names a block's content and the way it is built, so that a build can tell which packs of an earlier one still hold.
+// Names a block's content and the way it is built, so that a build can tell which packs of an earlier one
+// still hold.
 #pragma once
 
 #include "import/source_scene.h"

@@ -1,6 +1,6 @@
-// Finds indices by the hash of what they stand for: open addressing, the keys stay in the caller's own arrays.
-// Used where a block's vertices, edges and positions are made unique; the order of insertion never matters to what
-// is found, and nothing iterates over the table.
+// Finds indices by the hash of what they stand for: open addressing, the keys stay in the caller's own
+// arrays. Used where a block's vertices, edges and positions are made unique; the order of insertion never
+// matters to what is found, and nothing iterates over the table.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,8 @@ constexpr int kAttempts = 16;
 
 class AtlasMaker {
   public:
-    AtlasMaker(std::vector<NodeTriangle>& triangles, const AtlasTask& task) : triangles_(triangles), task_(task) {
+    AtlasMaker(std::vector<NodeTriangle>& triangles, const AtlasTask& task)
+        : triangles_(triangles), task_(task) {
         for (const NodeTriangle& t : triangles) {
             textured_ = textured_ || t.surface != 0 || t.baked;
             masked_ = masked_ || task.mesh.surfaces[t.surface].alphaMask;
@@ -44,7 +45,8 @@ class AtlasMaker {
             atlas.image = fill(set, size, scale);
             for (NodeTriangle& t : triangles_) {
                 if (t.chart == kNone) continue;
-                const glm::vec2 corner(static_cast<float>(set.charts[t.chart].x), static_cast<float>(set.charts[t.chart].y));
+                const glm::vec2 corner(static_cast<float>(set.charts[t.chart].x),
+                                       static_cast<float>(set.charts[t.chart].y));
                 for (glm::vec2& texel : t.texels) texel += corner;
             }
             return atlas;
@@ -55,8 +57,8 @@ class AtlasMaker {
     }
 
   private:
-    // Texels per grid unit of baked charts. They cover untextured surroundings too, but all of them together never get
-    // more than twice the texels that the piece's textured surface is worth.
+    // Texels per grid unit of baked charts. They cover untextured surroundings too, but all of them together
+    // never get more than twice the texels that the piece's textured surface is worth.
     [[nodiscard]] double bakedDensity(double scale) const {
         const double share = std::min(1.0, 2.0 * task_.surface->texturedGridArea() / bakedGridArea_);
         return std::max(task_.surface->texelsPerGridUnit() * scale * std::sqrt(share), 1e-9);
@@ -82,8 +84,8 @@ class AtlasMaker {
         const Surface& surface = task_.mesh.surfaces[chart.surface];
         TextureLevels& texture = *task_.textures.textures[static_cast<std::size_t>(surface.texture)];
         const double across = chart.rect.width / chart.width, down = chart.rect.height / chart.height;
-        // From a coarser level where at least two of its texels still go into one of the atlas. A chart that repeats
-        // could be of any size: there the larger ratio counts, to bound the work.
+        // From a coarser level where at least two of its texels still go into one of the atlas. A chart that
+        // repeats could be of any size: there the larger ratio counts, to bound the work.
         double ratio = chart.edge == EdgeMode::repeat ? std::max(across, down) : std::min(across, down);
         int level = 0;
         for (; ratio >= 4.0; ratio *= 0.5) ++level;
@@ -95,8 +97,10 @@ class AtlasMaker {
             rect = {0.0, 0.0, static_cast<double>(chart.width), static_cast<double>(chart.height)};
         }
         resampleArea(source, rect, chart.edge, {atlas, chart.x, chart.y, chart.width, chart.height, kGutter});
-        for (int y = std::max(chart.y - kGutter, 0); y < std::min(chart.y + chart.height + kGutter, atlas.height); ++y) {
-            for (int x = std::max(chart.x - kGutter, 0); x < std::min(chart.x + chart.width + kGutter, atlas.width); ++x) {
+        for (int y = std::max(chart.y - kGutter, 0);
+             y < std::min(chart.y + chart.height + kGutter, atlas.height); ++y) {
+            for (int x = std::max(chart.x - kGutter, 0);
+                 x < std::min(chart.x + chart.width + kGutter, atlas.width); ++x) {
                 const std::size_t at = static_cast<std::size_t>(y) * atlas.width + x;
                 known[at] = 1;
                 if (atlas.channels == 4 && !surface.alphaMask) atlas.pixels[at * 4 + 3] = 255;
@@ -108,17 +112,20 @@ class AtlasMaker {
         const BlockMesh& mesh = task_.mesh;
         for (NodeTriangle& t : triangles_) {
             if (t.surface == 0 && !t.baked) continue;
-            const glm::vec3 normal(glm::normalize(
-                crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y], mesh.positions[t.positions.z])));
+            const glm::vec3 normal(
+                glm::normalize(crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y],
+                                       mesh.positions[t.positions.z])));
             for (int k = 0; k < 3; ++k) {
                 glm::u8vec4& colour = t.colours[static_cast<std::size_t>(k)];
                 if (t.baked) {
                     const glm::vec3 point(mesh.positions[t.positions[k]]);
-                    colour = task_.surface->colourAt(task_.surface->closest(point, normal, kNone), 1.0 / bakedDensity(scale));
+                    colour = task_.surface->colourAt(task_.surface->closest(point, normal, kNone),
+                                                     1.0 / bakedDensity(scale));
                 } else {
                     const auto index = static_cast<std::size_t>(mesh.surfaces[t.surface].texture);
-                    const glm::vec4 texel = sampleTexture(*task_.textures.textures[index], mesh.wedges[t.wedges[k]].uv,
-                                                          static_cast<float>(1.0 / scale));
+                    const glm::vec4 texel =
+                        sampleTexture(*task_.textures.textures[index], mesh.wedges[t.wedges[k]].uv,
+                                      static_cast<float>(1.0 / scale));
                     colour = glm::u8vec4(texel * glm::vec4(colour) / 255.0f + 0.5f);
                 }
                 colour.w = 255;  // holes are finer than a triangle
@@ -137,6 +144,8 @@ class AtlasMaker {
 
 }  // namespace
 
-Atlas makeAtlas(std::vector<NodeTriangle>& triangles, const AtlasTask& task) { return AtlasMaker(triangles, task).make(); }
+Atlas makeAtlas(std::vector<NodeTriangle>& triangles, const AtlasTask& task) {
+    return AtlasMaker(triangles, task).make();
+}
 
 }  // namespace fb

@@ -1,6 +1,6 @@
 // One node's texture: charts found, sized, packed and filled; and its coding as JPEG or PNG.
-// Comes from node_triangles, goes to finish_node. Textures shrink by the same factor as triangles do (thesis 3.2):
-// along each axis by its square root.
+// Comes from node_triangles, goes to finish_node. Textures shrink by the same factor as triangles do
+// (thesis 3.2): along each axis by its square root.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct AtlasTask {
     const BlockMesh& mesh;
     BlockTextures& textures;
     const PieceSurface* surface = nullptr;  // needed where triangles are baked
-    double scale = 1.0;                     // atlas texels per source texel along each axis; 1 copies texels exactly
+    double scale = 1.0;  // atlas texels per source texel along each axis; 1 copies texels exactly
     int maxSide = 4096;
 };
 

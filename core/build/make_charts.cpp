@@ -11,8 +11,9 @@ namespace {
 
 struct Island {
     std::uint32_t surface = 0;
-    glm::dvec2 low{0.0}, high{0.0};  // source texels, moved by whole repeats so that `low` lies in the picture
-    glm::dvec2 shift{0.0};           // what was subtracted
+    glm::dvec2 low{0.0},
+        high{0.0};          // source texels, moved by whole repeats so that `low` lies in the picture
+    glm::dvec2 shift{0.0};  // what was subtracted
 };
 
 class Joiner {
@@ -101,12 +102,15 @@ TexelRect unite(const TexelRect& a, const TexelRect& b) {
 }
 
 double atlasTexels(const TexelRect& rect, double scale) {
-    return (std::max(1.0, rect.width * scale) + 2 * kGutter) * (std::max(1.0, rect.height * scale) + 2 * kGutter);
+    return (std::max(1.0, rect.width * scale) + 2 * kGutter) *
+           (std::max(1.0, rect.height * scale) + 2 * kGutter);
 }
 
-// Joins rectangles of one texture as long as that saves room. Candidates are the neighbours along a space-filling
-// curve: comparing all pairs would take quadratic time, and what lies close enough to be joined is close on the curve.
-void joinRects(std::vector<TexelRect>& rects, const std::vector<Island>& islands, double scale, Joiner& joiner) {
+// Joins rectangles of one texture as long as that saves room. Candidates are the neighbours along a
+// space-filling curve: comparing all pairs would take quadratic time, and what lies close enough to be joined
+// is close on the curve.
+void joinRects(std::vector<TexelRect>& rects, const std::vector<Island>& islands, double scale,
+               Joiner& joiner) {
     constexpr std::size_t kWindow = 12;
     constexpr int kRounds = 8;
     const auto curve = [&](std::uint32_t i) {
@@ -131,7 +135,8 @@ void joinRects(std::vector<TexelRect>& rects, const std::vector<Island>& islands
                 const std::uint32_t i = joiner.find(order[a].second), j = joiner.find(order[b].second);
                 if (i == j || islands[i].surface != islands[j].surface) continue;
                 const TexelRect both = unite(rects[i], rects[j]);
-                if (atlasTexels(both, scale) > atlasTexels(rects[i], scale) + atlasTexels(rects[j], scale)) continue;
+                if (atlasTexels(both, scale) > atlasTexels(rects[i], scale) + atlasTexels(rects[j], scale))
+                    continue;
                 rects[joiner.join(i, j)] = both;
                 joined = true;
             }
@@ -163,7 +168,8 @@ ChartSet makeCharts(std::span<NodeTriangle> triangles, const BlockMesh& mesh, co
         Chart chart;
         chart.surface = islands[i].surface;
         chart.rect = rects[i];
-        const bool repeats = chart.rect.x + chart.rect.width > size.x || chart.rect.y + chart.rect.height > size.y;
+        const bool repeats =
+            chart.rect.x + chart.rect.width > size.x || chart.rect.y + chart.rect.height > size.y;
         chart.edge = repeats ? EdgeMode::repeat : EdgeMode::extend;
         const glm::dvec2 sharp = kSharpRepeats * size;
         if (chart.rect.width > sharp.x || chart.rect.height > sharp.y) ++set.blurredRepeats;

@@ -5,8 +5,8 @@
 
 namespace fb {
 
-double measureError(const BlockMesh& mesh, std::span<const MeshTriangle> piece, std::span<const NodeTriangle> node,
-                    double simplifierError) {
+double measureError(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
+                    std::span<const NodeTriangle> node, double simplifierError) {
     std::vector<TriangleCorners> corners;
     corners.reserve(node.size());
     for (const NodeTriangle& t : node) {
@@ -28,10 +28,13 @@ double measureError(const BlockMesh& mesh, std::span<const MeshTriangle> piece, 
     ClosestPoint near;
     for (std::size_t i = 0; i < positions.size(); i += stride) {
         const glm::vec3 point(mesh.positions[positions[i]]);
-        // Only distances beyond the worst so far matter: the search ends at the first triangle that is close enough.
+        // Only distances beyond the worst so far matter: the search ends at the first triangle that is close
+        // enough.
         ClosestPoint start;
         if (near.triangle != ~std::uint32_t{0}) start = tree.closestOn(near.triangle, point);
-        near = start.squaredDistance <= worst ? start : tree.closest(point, start, worst, [](std::uint32_t) { return true; });
+        near = start.squaredDistance <= worst
+                   ? start
+                   : tree.closest(point, start, worst, [](std::uint32_t) { return true; });
         worst = std::max(worst, near.squaredDistance);
     }
     return std::sqrt(static_cast<double>(worst)) + 1.0;

@@ -1,7 +1,8 @@
 // The triangles of one node with all that the node stores of them, before they become vertices and an atlas.
-// Comes from simplify_level (or, for leaves, straight from the cut original); goes to make_charts and finish_node.
-// Where seams were welded, a triangle takes the attributes of one chart of the original if its corners have one in
-// common and the original agrees between them; else it gets texels of its own (bake_charts) or, untextured, colours.
+// Comes from simplify_level (or, for leaves, straight from the cut original); goes to make_charts and
+// finish_node. Where seams were welded, a triangle takes the attributes of one chart of the original if its
+// corners have one in common and the original agrees between them; else it gets texels of its own
+// (bake_charts) or, untextured, colours.
 #pragma once
 
 #include <array>
@@ -17,13 +18,13 @@ namespace fb {
 
 struct NodeTriangle {
     glm::uvec3 positions;
-    glm::uvec3 wedges{kNone};                   // kNone: not taken from the original's corners
-    std::uint32_t surface = 0;                  // 0 when baked
-    bool baked = false;                         // gets texels of its own
-    std::array<glm::vec3, 3> normals;           // unit
+    glm::uvec3 wedges{kNone};          // kNone: not taken from the original's corners
+    std::uint32_t surface = 0;         // 0 when baked
+    bool baked = false;                // gets texels of its own
+    std::array<glm::vec3, 3> normals;  // unit
     std::array<glm::u8vec4, 3> colours;
-    std::uint32_t chart = kNone;                // set by make_charts; kNone: untextured
-    std::array<glm::vec2, 3> texels{};          // atlas texels from the corner of the chart; then of the atlas
+    std::uint32_t chart = kNone;        // set by make_charts; kNone: untextured
+    std::array<glm::vec2, 3> texels{};  // atlas texels from the corner of the chart; then of the atlas
 };
 
 // What the original of a piece looks like from near a simplified triangle.
@@ -35,8 +36,8 @@ class PieceSurface {
         std::uint32_t triangle = kNone;  // of the piece
         glm::vec3 weights{0.0f};
     };
-    // The closest point of the original that faces the same way as `normal`; of all where none does. `near`: the
-    // triangle of an earlier hit close by, or kNone.
+    // The closest point of the original that faces the same way as `normal`; of all where none does. `near`:
+    // the triangle of an earlier hit close by, or kNone.
     [[nodiscard]] Hit closest(const glm::vec3& point, const glm::vec3& normal, std::uint32_t near) const;
     [[nodiscard]] std::uint32_t surfaceOf(const Hit& hit) const;
     [[nodiscard]] glm::vec2 uvAt(const Hit& hit) const;
@@ -60,15 +61,18 @@ class PieceSurface {
 };
 
 // A leaf's triangles: all of the piece as it is.
-[[nodiscard]] std::vector<NodeTriangle> dressOriginal(const BlockMesh& mesh, std::span<const MeshTriangle> piece);
+[[nodiscard]] std::vector<NodeTriangle> dressOriginal(const BlockMesh& mesh,
+                                                      std::span<const MeshTriangle> piece);
 
-// A simplified piece whose seams were kept. `scratch` has one kNone per position, and has them again afterwards.
-[[nodiscard]] std::vector<NodeTriangle> dressSeamed(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
+// A simplified piece whose seams were kept. `scratch` has one kNone per position, and has them again
+// afterwards.
+[[nodiscard]] std::vector<NodeTriangle> dressSeamed(const BlockMesh& mesh,
+                                                    std::span<const MeshTriangle> piece,
                                                     const SimplifiedPiece& simplified,
                                                     std::vector<std::uint32_t>& scratch);
 
-// A simplified piece whose seams were welded. `chartOfWedge` from chartsOfWedges() of the level; `texelScale` is the
-// factor by which the node's texture is smaller than the original along each axis.
+// A simplified piece whose seams were welded. `chartOfWedge` from chartsOfWedges() of the level; `texelScale`
+// is the factor by which the node's texture is smaller than the original along each axis.
 struct WeldedDress {
     const BlockMesh& mesh;
     std::span<const MeshTriangle> piece;
@@ -77,10 +81,12 @@ struct WeldedDress {
     const std::vector<std::uint32_t>& chartOfWedge;
     double texelScale = 1.0;
 };
-[[nodiscard]] std::vector<NodeTriangle> dressWelded(const WeldedDress& dress, const SimplifiedPiece& simplified,
+[[nodiscard]] std::vector<NodeTriangle> dressWelded(const WeldedDress& dress,
+                                                    const SimplifiedPiece& simplified,
                                                     std::vector<std::uint32_t>& scratch);
 
 // A number per wedge, equal for wedges that triangles connect.
-[[nodiscard]] std::vector<std::uint32_t> chartsOfWedges(const BlockMesh& mesh, std::span<const MeshTriangle> triangles);
+[[nodiscard]] std::vector<std::uint32_t> chartsOfWedges(const BlockMesh& mesh,
+                                                        std::span<const MeshTriangle> triangles);
 
 }  // namespace fb

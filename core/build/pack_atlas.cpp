@@ -24,8 +24,8 @@ std::vector<AtlasSize> candidates(std::span<const Chart> charts, int maxSide) {
     }
     const auto classes = [&](int least) {
         std::vector<int> sides;
-        for (auto side = atlasSide(static_cast<std::uint32_t>(least)); side <= static_cast<std::uint32_t>(maxSide);
-             side = atlasSide(side + 1)) {
+        for (auto side = atlasSide(static_cast<std::uint32_t>(least));
+             side <= static_cast<std::uint32_t>(maxSide); side = atlasSide(side + 1)) {
             sides.push_back(static_cast<int>(side));
         }
         return sides;
@@ -39,7 +39,8 @@ std::vector<AtlasSize> candidates(std::span<const Chart> charts, int maxSide) {
     const auto rank = [](const AtlasSize& s) {
         return std::tuple(std::int64_t{s.width} * s.height, std::max(s.width, s.height), s.width);
     };
-    std::sort(sizes.begin(), sizes.end(), [&](const AtlasSize& a, const AtlasSize& b) { return rank(a) < rank(b); });
+    std::sort(sizes.begin(), sizes.end(),
+              [&](const AtlasSize& a, const AtlasSize& b) { return rank(a) < rank(b); });
     return sizes;
 }
 
@@ -59,7 +60,8 @@ bool packInto(std::span<Chart> charts, const AtlasSize& size, std::vector<stbrp_
     stbrp_context context;
     stbrp_init_target(&context, width, height, nodes.data(), width);
     if (stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size())) == 0) return false;
-    // Which of several charts of one size gets which place depends on the C library's sort; order them ourselves.
+    // Which of several charts of one size gets which place depends on the C library's sort; order them
+    // ourselves.
     std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> places;
     for (const stbrp_rect& rect : rects) places[{rect.w, rect.h}].emplace_back(-rect.y, -rect.x);
     for (auto& [sides, free] : places) std::sort(free.begin(), free.end());

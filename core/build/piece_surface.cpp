@@ -31,7 +31,8 @@ double texelArea(const BlockMesh& mesh, const MeshTriangle& t, const TextureLeve
 
 }  // namespace
 
-PieceSurface::PieceSurface(const BlockMesh& mesh, std::span<const MeshTriangle> piece, BlockTextures& textures)
+PieceSurface::PieceSurface(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
+                           BlockTextures& textures)
     : mesh_(mesh), piece_(piece), textures_(textures), tree_(allCorners(mesh, piece)) {
     double texels = 0.0;
     for (const MeshTriangle& t : piece) {
@@ -45,7 +46,8 @@ PieceSurface::PieceSurface(const BlockMesh& mesh, std::span<const MeshTriangle> 
     if (texturedGridArea_ > 0.0) texelsPerGridUnit_ = std::sqrt(texels / texturedGridArea_);
 }
 
-PieceSurface::Hit PieceSurface::closest(const glm::vec3& point, const glm::vec3& normal, std::uint32_t near) const {
+PieceSurface::Hit PieceSurface::closest(const glm::vec3& point, const glm::vec3& normal,
+                                        std::uint32_t near) const {
     const auto facing = [&](std::uint32_t i) { return glm::dot(normals_[i], normal) > 0.0f; };
     ClosestPoint start;
     if (near != kNone && facing(near)) start = tree_.closestOn(near, point);
@@ -75,7 +77,8 @@ glm::u8vec4 PieceSurface::vertexColourAt(const Hit& hit) const {
 double PieceSurface::density(std::uint32_t triangle) const {
     const MeshTriangle& t = piece_[triangle];
     const int texture = mesh_.surfaces[mesh_.wedges[t.wedges.x].surface].texture;
-    return std::sqrt(texelArea(mesh_, t, *textures_.textures[static_cast<std::size_t>(texture)]) / gridArea(mesh_, t));
+    return std::sqrt(texelArea(mesh_, t, *textures_.textures[static_cast<std::size_t>(texture)]) /
+                     gridArea(mesh_, t));
 }
 
 glm::u8vec4 PieceSurface::colourAt(const Hit& hit, double sideGridUnits) const {

@@ -12,41 +12,7 @@ namespace {
 
 // Below this step the areas of triangles would no longer be normal floats.
 const double kSmallestStep = std::ldexp(1.0, kMinGridExponent);
-// Half of what scene files hold, so that a grid's origin, rounded down, still is in range.
-constexpr double kLargestCoordinate = 0.5 * kMaxCoordinateMetres;
 constexpr float kLargestUv = 1e6f;
-
-Result<void> checkSource(const SourceBlock& block) {
-    const SourceMesh& mesh = block.mesh;
-    const std::size_t vertices = mesh.positions.size();
-    if ((mesh.hasNormals() && mesh.normals.size() != vertices) || (mesh.hasUvs() && mesh.uvs.size() != vertices) ||
-        (mesh.hasColours() && mesh.colours.size() != vertices) ||
-        (!mesh.materials.empty() && mesh.materials.size() != mesh.triangles.size())) {
-        return failure("", block.name, "the mesh's attributes do not have one entry per vertex or triangle");
-    }
-    if (mesh.triangles.size() >= std::size_t{1} << 29 || vertices >= std::size_t{1} << 30) {
-        return failure("", block.name, "more than 2^29 triangles in one block", "split it into smaller blocks");
-    }
-    for (std::size_t i = 0; i < vertices; ++i) {
-        for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(mesh.positions[i][axis]) <= kLargestCoordinate)) {
-                return failure("", block.name, "vertex " + std::to_string(i) + " is not finite or beyond 5e11 m");
-            }
-        }
-    }
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const glm::uvec3& corners = mesh.triangles[i];
-        if (corners.x >= vertices || corners.y >= vertices || corners.z >= vertices) {
-            return failure("", block.name, "triangle " + std::to_string(i) + " names a vertex that is not there");
-        }
-        if (mesh.materials.empty() || mesh.materials[i] == kNoMaterial) continue;
-        if (mesh.materials[i] >= block.materials.size() ||
-            block.materials[mesh.materials[i]].texture >= static_cast<int>(block.textures.size())) {
-            return failure("", block.name, "triangle " + std::to_string(i) + " names a material that is not there");
-        }
-    }
-    return {};
-}
 
 // What a material makes of a vertex.
 struct Coating {
@@ -75,8 +41,8 @@ class Quantiser {
         for (std::size_t i = 0; i < source.triangles.size(); ++i) {
             const glm::uvec3& corners = source.triangles[i];
             const glm::dvec3& a = source.positions[corners.x];
-            result_.sourceAreaSquareMetres +=
-                0.5 * glm::length(glm::cross(source.positions[corners.y] - a, source.positions[corners.z] - a));
+            result_.sourceAreaSquareMetres += 0.5 * glm::length(glm::cross(source.positions[corners.y] - a,
+                                                                           source.positions[corners.z] - a));
             addTriangle(corners, coatingOf(i, corners));
         }
         return std::move(result_);
@@ -94,7 +60,8 @@ class Quantiser {
                 const auto same = [&](const Surface& s) {
                     return s.texture == material.texture && s.alphaMask == masked;
                 };
-                while (coating.surface < surfaces.size() && !same(surfaces[coating.surface])) ++coating.surface;
+                while (coating.surface < surfaces.size() && !same(surfaces[coating.surface]))
+                    ++coating.surface;
                 if (coating.surface == surfaces.size()) surfaces.push_back({material.texture, masked});
             }
             coatings_.push_back(coating);
@@ -158,12 +125,13 @@ class Quantiser {
         const std::uint64_t place = std::uint64_t{wedge.position} << 32 | wedge.surface;
         const std::uint64_t look = std::uint64_t{std::bit_cast<std::uint32_t>(wedge.uv.x)} << 32 |
                                    std::bit_cast<std::uint32_t>(wedge.uv.y);
-        const std::uint64_t hash = mixBits(place ^ mixBits(look ^ mixBits(std::bit_cast<std::uint32_t>(wedge.colour))));
+        const std::uint64_t hash =
+            mixBits(place ^ mixBits(look ^ mixBits(std::bit_cast<std::uint32_t>(wedge.colour))));
         std::vector<Wedge>& wedges = result_.mesh.wedges;
         const std::uint32_t found = wedgeIndex_.find(hash, [&](std::uint32_t index) {
             const Wedge& other = wedges[index];
-            return other.position == wedge.position && other.surface == wedge.surface && other.uv == wedge.uv &&
-                   other.colour == wedge.colour;
+            return other.position == wedge.position && other.surface == wedge.surface &&
+                   other.uv == wedge.uv && other.colour == wedge.colour;
         });
         if (found != kNone) return found;
         wedgeIndex_.insert(hash, static_cast<std::uint32_t>(wedges.size()));
@@ -189,14 +157,14 @@ BlockGrid gridFor(const Box3d& bounds) {
     // Two points are kept back: one for rounding the origin down, one for rounding positions up.
     const double wanted = std::max(extent / (kGridSize - 2), kSmallestStep);
     int exponent = 0;
-    const double fraction = std::frexp(wanted, &exponent);  // wanted = fraction * 2^exponent, fraction in [0.5, 1)
+    const double fraction =
+        std::frexp(wanted, &exponent);  // wanted = fraction * 2^exponent, fraction in [0.5, 1)
     grid.step = std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
     grid.origin = glm::floor(bounds.min / grid.step) * grid.step;
     return grid;
 }
 
-Result<QuantisedBlock> quantiseBlock(const SourceBlock& block, const BlockTextures& textures) {
-    if (Result<void> checked = checkSource(block); !checked) return passOn(checked);
+QuantisedBlock quantiseBlock(const SourceBlock& block, const BlockTextures& textures) {
     QuantisedBlock result = Quantiser(block, textures).run();
     for (const GridPoint& point : result.mesh.positions) {
         FB_CHECK(glm::all(glm::greaterThanEqual(point, GridPoint(0))));

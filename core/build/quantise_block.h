@@ -1,9 +1,8 @@
-// First step of building a block: positions go onto the block's integer grid, once, so that whatever is cut or
-// simplified later meets exactly; attributes become wedges. Triangles that the grid makes degenerate are dropped.
-// Comes from import/ (SourceBlock), goes to split_mesh.
+// First step of building a block: positions go onto the block's integer grid, once, so that whatever is cut
+// or simplified later meets exactly; attributes become wedges. Triangles that the grid makes degenerate are
+// dropped. Comes from import/ (SourceBlock), goes to split_mesh.
 #pragma once
 
-#include "base/result.h"
 #include "build/block_mesh.h"
 #include "build/block_textures.h"
 
@@ -17,11 +16,11 @@ struct QuantisedBlock {
     double sourceAreaSquareMetres = 0.0;    // before quantising
 };
 
-// The finest grid with a power of two as step whose 2^24 points hold the box; its origin is a multiple of the step, so
-// that blocks of equal step lie on one common grid.
+// The finest grid with a power of two as step whose 2^24 points hold the box; its origin is a multiple of the
+// step, so that blocks of equal step lie on one common grid.
 [[nodiscard]] BlockGrid gridFor(const Box3d& bounds);
 
-// Errors: counts of the block's arrays do not agree, indices out of range, positions not finite or beyond 5e11 m.
-[[nodiscard]] Result<QuantisedBlock> quantiseBlock(const SourceBlock& block, const BlockTextures& textures);
+// `block` has passed checkBlock().
+[[nodiscard]] QuantisedBlock quantiseBlock(const SourceBlock& block, const BlockTextures& textures);
 
 }  // namespace fb

@@ -7,14 +7,14 @@
 namespace fb {
 namespace {
 
-struct Tap {
+struct TexelTap {
     int source;
     float weight;
 };
 
 // The source texels under each of `count` target texels along one axis, weights adding to 1.
-struct Taps {
-    std::vector<Tap> taps;
+struct TexelTaps {
+    std::vector<TexelTap> taps;
     std::vector<std::uint32_t> begin;  // count + 1
 };
 
@@ -24,8 +24,8 @@ int wrapped(std::int64_t at, int size, EdgeMode edge) {
     return static_cast<int>(rest < 0 ? rest + size : rest);
 }
 
-Taps makeTaps(double start, double perTexel, int first, int end, int size, EdgeMode edge) {
-    Taps result;
+TexelTaps makeTaps(double start, double perTexel, int first, int end, int size, EdgeMode edge) {
+    TexelTaps result;
     result.begin.push_back(0);
     for (int i = first; i < end; ++i) {
         const double a = start + perTexel * i;
@@ -41,26 +41,86 @@ Taps makeTaps(double start, double perTexel, int first, int end, int size, EdgeM
     return result;
 }
 
-bool isWhole(double value) { return value == std::floor(value); }
+bool isWholeTexel(double value) {
+    return value == std::floor(value);
+}
 
-void copyTexels(const Image& source, const TexelRect& rect, EdgeMode edge, const ResampleTarget& into, glm::ivec4 clip) {
+void copyTexels(const Image& source, const TexelRect& rect, EdgeMode edge, const ResampleTarget& into,
+                glm::ivec4 clip) {
     const auto targetChannels = static_cast<std::size_t>(into.target.channels);
     const auto sourceChannels = static_cast<std::size_t>(source.channels);
     const std::size_t channels = std::min(targetChannels, sourceChannels);
     std::vector<std::size_t> columns;
     for (int i = clip.x; i < clip.z; ++i) {
-        columns.push_back(static_cast<std::size_t>(wrapped(static_cast<std::int64_t>(rect.x) + i, source.width, edge)) *
-                          sourceChannels);
+        columns.push_back(
+            static_cast<std::size_t>(wrapped(static_cast<std::int64_t>(rect.x) + i, source.width, edge)) *
+            sourceChannels);
     }
     for (int j = clip.y; j < clip.w; ++j) {
         const int row = wrapped(static_cast<std::int64_t>(rect.y) + j, source.height, edge);
-        const std::uint8_t* from = source.pixels.data() + static_cast<std::size_t>(row) * source.width * sourceChannels;
-        std::uint8_t* to = into.target.pixels.data() +
-                           (static_cast<std::size_t>(into.y + j) * into.target.width + (into.x + clip.x)) * targetChannels;
+        const std::uint8_t* from =
+            source.pixels.data() + static_cast<std::size_t>(row) * source.width * sourceChannels;
+        std::uint8_t* to =
+            into.target.pixels.data() +
+            (static_cast<std::size_t>(into.y + j) * into.target.width + (into.x + clip.x)) * targetChannels;
         for (std::size_t i = 0; i < columns.size(); ++i) {
             for (std::size_t c = 0; c < channels; ++c) to[i * targetChannels + c] = from[columns[i] + c];
         }
     }
+}
+
+struct NearestTexel {
+    std::int32_t x = -1, y = -1;  // -1: none yet
+};
+
+// For every texel the nearest known one: two sweeps that hand the nearest of neighbours on (Danielsson 1980,
+// Euclidean distance mapping).
+std::vector<NearestTexel> findNearestKnown(int width, int height, const std::vector<std::uint8_t>& known) {
+    std::vector<NearestTexel> nearest(known.size());
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x;
+    };
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (known[index(x, y)] != 0) nearest[index(x, y)] = {x, y};
+        }
+    }
+    const auto take = [&](int x, int y, int fromX, int fromY) {
+        if (fromX < 0 || fromX >= width || fromY < 0 || fromY >= height) return;
+        const NearestTexel offered = nearest[index(fromX, fromY)];
+        if (offered.x < 0) return;
+        NearestTexel& own = nearest[index(x, y)];
+        const auto distance = [&](const NearestTexel& n) {
+            const std::int64_t dx = n.x - x, dy = n.y - y;
+            return dx * dx + dy * dy;
+        };
+        if (own.x < 0 || distance(offered) < distance(own)) own = offered;
+    };
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (known[index(x, y)] != 0) continue;
+            take(x, y, x, y - 1);
+            take(x, y, x - 1, y - 1);
+            take(x, y, x + 1, y - 1);
+            take(x, y, x - 1, y);
+        }
+        for (int x = width - 1; x >= 0; --x) {
+            if (known[index(x, y)] == 0) take(x, y, x + 1, y);
+        }
+    }
+    for (int y = height - 1; y >= 0; --y) {
+        for (int x = width - 1; x >= 0; --x) {
+            if (known[index(x, y)] != 0) continue;
+            take(x, y, x, y + 1);
+            take(x, y, x - 1, y + 1);
+            take(x, y, x + 1, y + 1);
+            take(x, y, x + 1, y);
+        }
+        for (int x = 0; x < width; ++x) {
+            if (known[index(x, y)] == 0) take(x, y, x - 1, y);
+        }
+    }
+    return nearest;
 }
 
 }  // namespace
@@ -71,12 +131,13 @@ void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, con
                           std::min(into.width + into.gutter, into.target.width - into.x),
                           std::min(into.height + into.gutter, into.target.height - into.y));
     if (clip.x >= clip.z || clip.y >= clip.w) return;
-    if (rect.width == into.width && rect.height == into.height && isWhole(rect.x) && isWhole(rect.y)) {
+    if (rect.width == into.width && rect.height == into.height && isWholeTexel(rect.x) &&
+        isWholeTexel(rect.y)) {
         copyTexels(source, rect, edge, into, clip);
         return;
     }
-    const Taps columns = makeTaps(rect.x, rect.width / into.width, clip.x, clip.z, source.width, edge);
-    const Taps rows = makeTaps(rect.y, rect.height / into.height, clip.y, clip.w, source.height, edge);
+    const TexelTaps columns = makeTaps(rect.x, rect.width / into.width, clip.x, clip.z, source.width, edge);
+    const TexelTaps rows = makeTaps(rect.y, rect.height / into.height, clip.y, clip.w, source.height, edge);
     const auto targetChannels = static_cast<std::size_t>(into.target.channels);
     const auto sourceChannels = static_cast<std::size_t>(source.channels);
     const std::size_t channels = std::min(targetChannels, sourceChannels);
@@ -86,11 +147,12 @@ void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, con
         std::fill(sums.begin(), sums.end(), 0.5f);  // rounds
         const auto row = static_cast<std::size_t>(j - clip.y);
         for (std::uint32_t r = rows.begin[row]; r < rows.begin[row + 1]; ++r) {
-            const std::uint8_t* line =
-                source.pixels.data() + static_cast<std::size_t>(rows.taps[r].source) * source.width * sourceChannels;
+            const std::uint8_t* line = source.pixels.data() + static_cast<std::size_t>(rows.taps[r].source) *
+                                                                  source.width * sourceChannels;
             for (std::size_t i = 0; i < count; ++i) {
                 for (std::uint32_t k = columns.begin[i]; k < columns.begin[i + 1]; ++k) {
-                    const std::uint8_t* texel = line + static_cast<std::size_t>(columns.taps[k].source) * sourceChannels;
+                    const std::uint8_t* texel =
+                        line + static_cast<std::size_t>(columns.taps[k].source) * sourceChannels;
                     const float weight = rows.taps[r].weight * columns.taps[k].weight;
                     for (std::size_t c = 0; c < channels; ++c) {
                         sums[i * channels + c] += weight * static_cast<float>(texel[c]);
@@ -98,8 +160,9 @@ void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, con
                 }
             }
         }
-        std::uint8_t* to = into.target.pixels.data() +
-                           (static_cast<std::size_t>(into.y + j) * into.target.width + (into.x + clip.x)) * targetChannels;
+        std::uint8_t* to =
+            into.target.pixels.data() +
+            (static_cast<std::size_t>(into.y + j) * into.target.width + (into.x + clip.x)) * targetChannels;
         for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t c = 0; c < channels; ++c) {
                 const float sum = std::clamp(sums[i * channels + c], 0.0f, 255.0f);
@@ -111,38 +174,14 @@ void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, con
 
 void fillUnknown(Image& image, const std::vector<std::uint8_t>& known, int firstChannel, int endChannel) {
     if (std::memchr(known.data(), 0, known.size()) == nullptr) return;
+    if (std::memchr(known.data(), 1, known.size()) == nullptr) return;
+    const std::vector<NearestTexel> nearest = findNearestKnown(image.width, image.height, known);
     const auto channels = static_cast<std::size_t>(image.channels);
-    const int halfWidth = (image.width + 1) / 2, halfHeight = (image.height + 1) / 2;
-    Image half{halfWidth, halfHeight, image.channels, {}, false};
-    half.pixels.resize(static_cast<std::size_t>(halfWidth) * halfHeight * channels);
-    std::vector<std::uint8_t> halfKnown(static_cast<std::size_t>(halfWidth) * halfHeight);
-    for (int y = 0; y < halfHeight; ++y) {
-        for (int x = 0; x < halfWidth; ++x) {
-            unsigned sums[4] = {}, count = 0;
-            for (int k = 0; k < 4; ++k) {
-                const int sx = 2 * x + (k & 1), sy = 2 * y + (k >> 1);
-                if (sx >= image.width || sy >= image.height) continue;
-                const std::size_t at = static_cast<std::size_t>(sy) * image.width + sx;
-                if (known[at] == 0) continue;
-                ++count;
-                for (int c = firstChannel; c < endChannel; ++c) sums[c] += image.pixels[at * channels + c];
-            }
-            if (count == 0) continue;
-            const std::size_t at = static_cast<std::size_t>(y) * halfWidth + x;
-            halfKnown[at] = 1;
-            for (int c = firstChannel; c < endChannel; ++c) {
-                half.pixels[at * channels + c] = static_cast<std::uint8_t>((sums[c] + count / 2) / count);
-            }
-        }
-    }
-    if (image.width > 1 || image.height > 1) fillUnknown(half, halfKnown, firstChannel, endChannel);
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            const std::size_t at = static_cast<std::size_t>(y) * image.width + x;
-            if (known[at] != 0) continue;
-            const std::size_t from = (static_cast<std::size_t>(y / 2) * halfWidth + x / 2) * channels;
-            for (int c = firstChannel; c < endChannel; ++c) image.pixels[at * channels + c] = half.pixels[from + c];
-        }
+    for (std::size_t at = 0; at < known.size(); ++at) {
+        if (known[at] != 0) continue;
+        const std::size_t from = static_cast<std::size_t>(nearest[at].y) * image.width + nearest[at].x;
+        for (int c = firstChannel; c < endChannel; ++c)
+            image.pixels[at * channels + c] = image.pixels[from * channels + c];
     }
 }
 

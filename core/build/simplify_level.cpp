@@ -12,9 +12,8 @@ namespace {
 
 // A piece of few triangles keeps this many: fewer save nothing and show.
 constexpr std::size_t kSmallestAim = 4;
-// The first step stops at this many times the sum of the aims: the second then has something left to balance between
-// pieces, while cuts are as coarse as what surrounds them.
-constexpr std::size_t kJointSlack = 2;
+// Clustering moves vertices off the cuts and leaves gaps there: only for pieces that are hopeless otherwise.
+constexpr double kHopelessFactor = 3.0;
 
 struct TaggedTriangle {
     glm::uvec3 ids;  // wedges or positions
@@ -65,8 +64,9 @@ class LevelSimplifier {
         std::vector<std::vector<glm::uvec3>> joint(pieces);
         double jointError = 0.0;
         std::uint64_t jointCarried = 0;
-        const std::size_t jointAim = kJointSlack * std::accumulate(aims.begin(), aims.end(), std::size_t{0});
-        if (pieces > 1 && level_.triangles.size() > jointAim) {
+        const std::size_t jointAim = std::accumulate(aims.begin(), aims.end(), std::size_t{0});
+        const bool together = pieces > 1 && level_.triangles.size() > jointAim;
+        if (together) {
             Joint result = simplifyTogether(Seams::kept, jointAim);
             if (isStuck(result.triangles.size(), jointAim)) {
                 Joint welded = simplifyTogether(Seams::welded, jointAim);
@@ -83,7 +83,8 @@ class LevelSimplifier {
         }
         std::vector<SimplifiedPiece> result(pieces);
         for (std::size_t i = 0; i < pieces; ++i) {
-            result[i] = simplifyAlone(i, joint[i], seams, aims[i]);
+            result[i] =
+                simplifyAlone(i, joint[i], seams, {aims[i], together ? mostTriangles(aims[i]) : aims[i]});
             if (!joint[i].empty()) result[i].errorGridUnits += jointError;
         }
         if (pieces > 0) result[0].carriedTriangles += jointCarried;
@@ -97,12 +98,21 @@ class LevelSimplifier {
         std::uint64_t carriedTriangles = 0;
     };
 
+    // What a piece should have, and what it is simplified to when it has more than that.
+    struct Aim {
+        std::size_t wanted, target;
+    };
+
     static bool isStuck(std::size_t triangles, std::size_t aim) {
         return static_cast<double>(triangles) > kStuckFactor * static_cast<double>(aim);
     }
+    static std::size_t mostTriangles(std::size_t aim) {
+        return static_cast<std::size_t>(kStuckFactor * static_cast<double>(aim));
+    }
 
     [[nodiscard]] SimplifyOutput simplify(const SimplifyInput& input) const {
-        return simplifier_ == Simplifier::openMesh ? simplifyWithOpenMesh(input) : simplifyWithMeshoptimizer(input);
+        return simplifier_ == Simplifier::openMesh ? simplifyWithOpenMesh(input)
+                                                   : simplifyWithMeshoptimizer(input);
     }
 
     [[nodiscard]] std::uint32_t positionOf(std::uint32_t id, Seams seams) const {
@@ -158,7 +168,8 @@ class LevelSimplifier {
         std::vector<TaggedTriangle> all;
         all.reserve(level_.triangles.size());
         for (std::size_t i = 0; i < level_.pieces.size(); ++i) {
-            for (const glm::uvec3& ids : original(i, seams)) all.push_back({ids, static_cast<std::uint32_t>(i)});
+            for (const glm::uvec3& ids : original(i, seams))
+                all.push_back({ids, static_cast<std::uint32_t>(i)});
         }
         Task task = makeTask(all, seams, Cuts::seams);
         task.input.targetTriangles = aim;
@@ -170,8 +181,8 @@ class LevelSimplifier {
         return joint;
     }
 
-    [[nodiscard]] SimplifiedPiece simplifyOnce(const std::vector<glm::uvec3>& triangles, Seams seams, std::size_t aim,
-                                               bool sloppy) {
+    [[nodiscard]] SimplifiedPiece simplifyOnce(const std::vector<glm::uvec3>& triangles, Seams seams,
+                                               std::size_t aim, bool sloppy) {
         std::vector<TaggedTriangle> tagged;
         tagged.reserve(triangles.size());
         for (const glm::uvec3& ids : triangles) tagged.push_back({ids, 0});
@@ -184,7 +195,8 @@ class LevelSimplifier {
         result.carriedTriangles = output.carriedTriangles;
         for (const glm::uvec3& t : output.triangles) {
             const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);
-            if (!isDegenerate(mesh_.positions[positionOf(ids.x, seams)], mesh_.positions[positionOf(ids.y, seams)],
+            if (!isDegenerate(mesh_.positions[positionOf(ids.x, seams)],
+                              mesh_.positions[positionOf(ids.y, seams)],
                               mesh_.positions[positionOf(ids.z, seams)])) {
                 result.triangles.push_back(ids);
             }
@@ -193,7 +205,7 @@ class LevelSimplifier {
     }
 
     [[nodiscard]] SimplifiedPiece simplifyAlone(std::size_t piece, std::vector<glm::uvec3> start, Seams seams,
-                                                std::size_t aim) {
+                                                const Aim& aim) {
         if (start.empty()) {  // the first step collapsed all of it
             start = original(piece, Seams::kept);
             seams = Seams::kept;
@@ -202,17 +214,20 @@ class LevelSimplifier {
         best.triangles = start;
         best.welded = seams == Seams::welded;
         const auto attempt = [&](Seams how, bool sloppy) {
-            if (best.triangles.size() <= aim) return;
-            SimplifiedPiece next = simplifyOnce(start, how, aim, sloppy);
-            if (!next.triangles.empty() && next.triangles.size() < best.triangles.size()) best = std::move(next);
+            SimplifiedPiece next = simplifyOnce(start, how, aim.target, sloppy);
+            if (!next.triangles.empty() && next.triangles.size() < best.triangles.size())
+                best = std::move(next);
         };
-        attempt(seams, false);
-        if (isStuck(best.triangles.size(), aim)) {
-            if (seams == Seams::kept) weld(start);
-            attempt(Seams::welded, false);
-            if (isStuck(best.triangles.size(), aim)) attempt(Seams::welded, true);
+        if (best.triangles.size() > aim.target) attempt(seams, false);
+        if (isStuck(best.triangles.size(), aim.wanted)) {
+            if (seams == Seams::kept) {
+                weld(start);
+                attempt(Seams::welded, false);
+            }
+            const auto triangles = static_cast<double>(best.triangles.size());
+            if (triangles > kHopelessFactor * static_cast<double>(aim.wanted)) attempt(Seams::welded, true);
         }
-        best.stuck = isStuck(best.triangles.size(), aim);
+        best.stuck = isStuck(best.triangles.size(), aim.wanted);
         return best;
     }
 
@@ -229,8 +244,8 @@ std::size_t simplificationAim(std::size_t triangles, double factor) {
     return std::max(static_cast<std::size_t>(aim), std::min(triangles, kSmallestAim));
 }
 
-std::vector<SimplifiedPiece> simplifyLevel(const BlockMesh& mesh, const Level& level, std::span<const std::size_t> aims,
-                                           Simplifier simplifier) {
+std::vector<SimplifiedPiece> simplifyLevel(const BlockMesh& mesh, const Level& level,
+                                           std::span<const std::size_t> aims, Simplifier simplifier) {
     FB_CHECK(aims.size() == level.pieces.size());
     return LevelSimplifier(mesh, level, simplifier).run(aims);
 }

@@ -1,9 +1,11 @@
 // Simplifies the pieces of one level from the original, each to its own aim (thesis 3.2).
 // Comes from split_mesh; finish_node dresses the result with attributes.
-// Two steps. First all pieces of the level together, to some more than they may have: cutting planes are seams there,
-// so both sides of a cut are simplified alike, and pieces of one level always meet exactly. Then each piece alone, with
-// the vertices on cutting planes locked. Where texture seams hinder, they are welded and colours carried over later;
-// where even that misses the aim by more than half, vertices are clustered.
+// Two steps. First all pieces of the level together, to the sum of their aims: cutting planes are seams
+// there, so both sides of a cut are simplified alike and pieces of one level always meet exactly, and
+// triangles go where detail is. Then each piece that still has more than kStuckFactor times its aim alone,
+// with the vertices on cutting planes locked. Where texture seams hinder, they are welded and colours carried
+// over later; where even that misses the aim by far, vertices are clustered. Every step but the last stops
+// where shapes would be lost: such a piece is stuck.
 #pragma once
 
 #include <span>
@@ -30,6 +32,7 @@ struct SimplifiedPiece {
 
 // One result per piece; never without triangles. `aims` by piece.
 [[nodiscard]] std::vector<SimplifiedPiece> simplifyLevel(const BlockMesh& mesh, const Level& level,
-                                                         std::span<const std::size_t> aims, Simplifier simplifier);
+                                                         std::span<const std::size_t> aims,
+                                                         Simplifier simplifier);
 
 }  // namespace fb

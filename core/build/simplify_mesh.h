@@ -1,8 +1,9 @@
-// The simplifiers behind one signature: triangles over vertices in, fewer triangles over the same vertices out.
-// Comes from simplify_level. Vertices of one place (position number) are a seam: its sides move together or not at all,
-// so what is seamless stays so; locked places stay. Neither library is asked to keep attributes, only to keep seams.
-// meshoptimizer: quadric edge collapse (Garland and Heckbert 1997), about 50 times faster. OpenMesh: its decimater with
-// the same quadrics, in double precision, to check the other against.
+// The simplifiers behind one signature: triangles over vertices in, fewer triangles over the same vertices
+// out. Comes from simplify_level. Vertices of one place (position number) are a seam: its sides move together
+// or not at all, so what is seamless stays so; locked places stay. Neither library is asked to keep
+// attributes, only to keep seams. meshoptimizer: quadric edge collapse (Garland and Heckbert 1997), about 50
+// times faster. OpenMesh: its decimater with the same quadrics, in double precision, to check the other
+// against.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,9 @@
 #include <vector>
 
 namespace fb {
+
+// Simplification stops rather than move the surface by more than this share of the mesh's longest side.
+inline constexpr double kErrorLimit = 0.1;
 
 struct SimplifyInput {
     std::vector<glm::vec3> points;      // by vertex, grid units: whole numbers below 2^24, exact as floats
@@ -21,8 +25,9 @@ struct SimplifyInput {
 
 struct SimplifyOutput {
     std::vector<glm::uvec3> triangles;
-    double errorGridUnits = 0.0;         // the simplifier's own estimate
-    std::uint64_t carriedTriangles = 0;  // non-manifold ones that OpenMesh could not connect, kept with locked corners
+    double errorGridUnits = 0.0;  // the simplifier's own estimate
+    std::uint64_t carriedTriangles =
+        0;  // non-manifold ones that OpenMesh could not connect, kept with locked corners
 };
 
 [[nodiscard]] SimplifyOutput simplifyWithMeshoptimizer(const SimplifyInput& input);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/bounds.h"
 #include "base/check.h"
 #include "build/simplify_mesh.h"
 
@@ -44,11 +45,14 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
     explicit SeamQuadric(Mesh& mesh) : ModQuadricT<Mesh>(mesh) { mesh.add_property(corners_); }
     ~SeamQuadric() override { mesh().remove_property(corners_); }
 
+    void limitError(double distance) { squaredLimit_ = distance * distance; }
     FaceCorners& corners(OpenMesh::FaceHandle face) { return mesh().property(corners_, face); }
     [[nodiscard]] double largestSquaredError() const { return largestSquaredError_; }
 
     float collapse_priority(const CollapseInfo& info) override {
-        if (foldsFeature(info) || turnsFaceOver(info)) return static_cast<float>(ILLEGAL_COLLAPSE);
+        if (foldsFeature(info) || turnsFaceOver(info) || squaredDistanceToFaces(info) > squaredLimit_) {
+            return static_cast<float>(ILLEGAL_COLLAPSE);
+        }
         const float surface = ModQuadricT<Mesh>::collapse_priority(info);
         if (surface < 0.0f || !mesh().status(info.v0).feature()) return surface;
         return std::max(surface, static_cast<float>(lineError(info)));
@@ -56,7 +60,8 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
 
     void preprocess_collapse(const CollapseInfo& info) override {
         largestSquaredError_ = std::max(largestSquaredError_, squaredDistanceToFaces(info));
-        // Faces to the left of v0v1 take the vertex that the left face shows at v1, faces to the right the right one's.
+        // Faces to the left of v0v1 take the vertex that the left face shows at v1, faces to the right the
+        // right one's.
         const std::uint32_t leftFrom = sideVertex(info.fl, info.v0), leftTo = sideVertex(info.fl, info.v1);
         const std::uint32_t rightFrom = sideVertex(info.fr, info.v0), rightTo = sideVertex(info.fr, info.v1);
         for (auto face = mesh().vf_begin(info.v0); face != mesh().vf_end(info.v0); ++face) {
@@ -74,8 +79,8 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
         return face.is_valid() ? vertexAt(corners(face), place) : ~std::uint32_t{0};
     }
 
-    // The line at v0 turns into an edge of a face that vanishes: that face's third edge would have to become the line,
-    // and does not know it.
+    // The line at v0 turns into an edge of a face that vanishes: that face's third edge would have to become
+    // the line, and does not know it.
     bool foldsFeature(const CollapseInfo& info) {
         if (!mesh().status(info.v0).feature()) return false;
         for (const OpenMesh::VertexHandle third : {info.vl, info.vr}) {
@@ -102,8 +107,8 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
         return false;
     }
 
-    // Squared distance of v0 from the line that replaces the two pieces of seam at v0, weighted like the quadrics by
-    // an area.
+    // Squared distance of v0 from the line that replaces the two pieces of seam at v0, weighted like the
+    // quadrics by an area.
     double lineError(const CollapseInfo& info) {
         for (auto h = mesh().voh_begin(info.v0); h != mesh().voh_end(info.v0); ++h) {
             const OpenMesh::VertexHandle other = mesh().to_vertex_handle(*h);
@@ -116,7 +121,8 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
         return 0.0;
     }
 
-    // How far v0 lies from the nearest plane of the faces that remain around it: the local error of the collapse.
+    // How far v0 lies from the nearest plane of the faces that remain around it: the local error of the
+    // collapse.
     double squaredDistanceToFaces(const CollapseInfo& info) {
         double least = (info.p0 - info.p1).sqrnorm();
         for (auto face = mesh().vf_begin(info.v0); face != mesh().vf_end(info.v0); ++face) {
@@ -135,11 +141,11 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
     }
 
     OpenMesh::FPropHandleT<FaceCorners> corners_;
-    double largestSquaredError_ = 0.0;
+    double largestSquaredError_ = 0.0, squaredLimit_ = std::numeric_limits<double>::infinity();
 };
 
-// The half-edge mesh of the input: vertices are places. A face that would be non-manifold gets corners of its own,
-// locked with the places they lie on, so that it opens no gap.
+// The half-edge mesh of the input: vertices are places. A face that would be non-manifold gets corners of its
+// own, locked with the places they lie on, so that it opens no gap.
 class MeshMaker {
   public:
     MeshMaker(const SimplifyInput& input, Mesh& mesh) : input_(input), mesh_(mesh) {}
@@ -152,7 +158,8 @@ class MeshMaker {
         std::vector<FaceCorners> corners;
         for (const glm::uvec3& triangle : input_.triangles) {
             FaceCorners face;
-            for (int k = 0; k < 3; ++k) face[static_cast<std::size_t>(k)] = {handleOf(triangle[k]), triangle[k]};
+            for (int k = 0; k < 3; ++k)
+                face[static_cast<std::size_t>(k)] = {handleOf(triangle[k]), triangle[k]};
             OpenMesh::FaceHandle added;
             if (canAdd(face)) added = mesh_.add_face(face[0].place, face[1].place, face[2].place);
             if (!added.is_valid()) {
@@ -195,8 +202,8 @@ class MeshMaker {
     std::vector<OpenMesh::VertexHandle> handles_;
 };
 
-// Borders and edges whose sides show different vertices are features: their vertices move along them only, and ends
-// and crossings of features not at all.
+// Borders and edges whose sides show different vertices are features: their vertices move along them only,
+// and ends and crossings of features not at all.
 void markFeatures(Mesh& mesh, SeamQuadric& module) {
     for (const auto edge : mesh.edges()) {
         bool feature = mesh.is_boundary(edge);
@@ -232,6 +239,10 @@ SimplifyOutput simplifyWithOpenMesh(const SimplifyInput& input) {
     SeamQuadric& module = decimater.module(handle);
     for (const auto face : mesh.faces()) module.corners(face) = corners[static_cast<std::size_t>(face.idx())];
     markFeatures(mesh, module);
+    Box3f bounds;
+    for (const glm::vec3& point : input.points) bounds.grow(point);
+    const glm::vec3 size = bounds.size();
+    module.limitError(kErrorLimit * static_cast<double>(std::max(size.x, std::max(size.y, size.z))));
     if (decimater.initialize()) decimater.decimate_to_faces(0, input.targetTriangles);
     for (const auto face : mesh.faces()) {  // skips deleted ones
         glm::uvec3 triangle(0);

@@ -20,12 +20,16 @@ struct Corner {
     std::uint32_t wedge, normal;
 };
 
-Corner cornerOf(const MeshTriangle& triangle, int k) { return {triangle.wedges[k], triangle.normals[k]}; }
+Corner cornerAtIndex(const MeshTriangle& triangle, int k) {
+    return {triangle.wedges[k], triangle.normals[k]};
+}
 MeshTriangle triangleOf(const Corner& a, const Corner& b, const Corner& c) {
     return {{a.wedge, b.wedge, c.wedge}, {a.normal, b.normal, c.normal}};
 }
 
-std::uint64_t pairHash(std::uint32_t a, std::uint32_t b) { return mixBits(std::uint64_t{a} << 32 | b); }
+std::uint64_t pairHash(std::uint32_t a, std::uint32_t b) {
+    return mixBits(std::uint64_t{a} << 32 | b);
+}
 
 class Splitter {
   public:
@@ -35,7 +39,8 @@ class Splitter {
     void splitPiece(std::span<const MeshTriangle> part, std::uint32_t parent, int levelFactor, Level& next) {
         std::vector<MeshTriangle> rest;
         rest.reserve(part.size());
-        for (const MeshTriangle& triangle : part) refine(triangle, rest);  // by cuts of pieces beside this one
+        for (const MeshTriangle& triangle : part)
+            refine(triangle, rest);  // by cuts of pieces beside this one
         glm::ivec3 low(kGridSize), high(-1);
         for (const MeshTriangle& triangle : rest) {
             for (int k = 0; k < 3; ++k) {
@@ -81,7 +86,8 @@ class Splitter {
             if (result.triangles.size() == begin) {  // as in splitPiece
                 result.triangles.insert(result.triangles.end(), part.begin(), part.end());
             }
-            result.pieces.push_back({piece.parent, begin, static_cast<std::uint32_t>(result.triangles.size())});
+            result.pieces.push_back(
+                {piece.parent, begin, static_cast<std::uint32_t>(result.triangles.size())});
         }
         return result;
     }
@@ -99,11 +105,13 @@ class Splitter {
 
     [[nodiscard]] std::uint32_t findCut(std::uint32_t a, std::uint32_t b) const {
         const std::uint32_t low = std::min(a, b), high = std::max(a, b);
-        return edgeIndex_.find(pairHash(low, high),
-                               [&](std::uint32_t i) { return edges_[i].low == low && edges_[i].high == high; });
+        return edgeIndex_.find(pairHash(low, high), [&](std::uint32_t i) {
+            return edges_[i].low == low && edges_[i].high == high;
+        });
     }
 
-    // The cut of the edge by the plane; computed from the lower-numbered end, so that all its triangles agree.
+    // The cut of the edge by the plane; computed from the lower-numbered end, so that all its triangles
+    // agree.
     std::uint32_t findOrMakeCut(std::uint32_t a, std::uint32_t b, int axis, std::int32_t plane) {
         if (const std::uint32_t found = findCut(a, b); found != kNone) return found;
         const std::uint32_t low = std::min(a, b), high = std::max(a, b);
@@ -133,7 +141,8 @@ class Splitter {
         const Wedge p = mesh_.wedges[low], q = mesh_.wedges[high];
         Wedge middle{cut.middle, p.surface, {}, {}};
         middle.uv = glm::vec2(glm::dvec2(p.uv) + cut.at * (glm::dvec2(q.uv) - glm::dvec2(p.uv)));
-        const glm::dvec4 colour = glm::dvec4(p.colour) + cut.at * (glm::dvec4(q.colour) - glm::dvec4(p.colour));
+        const glm::dvec4 colour =
+            glm::dvec4(p.colour) + cut.at * (glm::dvec4(q.colour) - glm::dvec4(p.colour));
         middle.colour = glm::u8vec4(glm::round(colour));
         const auto added = static_cast<std::uint32_t>(mesh_.wedges.size());
         mesh_.wedges.push_back(middle);
@@ -174,8 +183,8 @@ class Splitter {
             const bool onPlane = under == 1 && over == 1;
             if (onPlane ? s == 0 : (under == 1 ? s < 0 : s > 0)) first = k;
         }
-        const Corner a = cornerOf(triangle, first), b = cornerOf(triangle, (first + 1) % 3),
-                     c = cornerOf(triangle, (first + 2) % 3);
+        const Corner a = cornerAtIndex(triangle, first), b = cornerAtIndex(triangle, (first + 1) % 3),
+                     c = cornerAtIndex(triangle, (first + 2) % 3);
         const auto edge = [&](const Corner& p, const Corner& q) {
             const EdgeCut made = edges_[findOrMakeCut(positionOf(p), positionOf(q), axis, plane)];
             return cornerAt(made, p, q);
@@ -205,16 +214,17 @@ class Splitter {
         }
     }
 
-    // The triangle, split at every cut that its edges have by now; only edges with both ends on cuts can have one.
+    // The triangle, split at every cut that its edges have by now; only edges with both ends on cuts can have
+    // one.
     void refine(const MeshTriangle& triangle, std::vector<MeshTriangle>& into) {
         if (!edgeIndex_.empty()) {
             for (int k = 0; k < 3; ++k) {
-                const Corner a = cornerOf(triangle, k), b = cornerOf(triangle, (k + 1) % 3);
+                const Corner a = cornerAtIndex(triangle, k), b = cornerAtIndex(triangle, (k + 1) % 3);
                 const std::uint32_t p = positionOf(a), q = positionOf(b);
                 if (mesh_.onCut[p] == 0 || mesh_.onCut[q] == 0) continue;
                 const std::uint32_t found = findCut(p, q);
                 if (found == kNone) continue;
-                const Corner c = cornerOf(triangle, (k + 2) % 3);
+                const Corner c = cornerAtIndex(triangle, (k + 2) % 3);
                 const Corner m = cornerAt(edges_[found], a, b);
                 refine(triangleOf(a, m, c), into);
                 refine(triangleOf(m, b, c), into);

@@ -6,14 +6,16 @@
 namespace fb {
 namespace {
 
-ClosestPoint at(const glm::vec3& p, const TriangleCorners& corners, const glm::vec3& weights) {
+ClosestPoint pointWith(const glm::vec3& p, const TriangleCorners& corners, const glm::vec3& weights) {
     const glm::vec3 on = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
     const glm::vec3 d = p - on;
     return {0, weights, glm::dot(d, d)};
 }
 
 // part / whole, both >= 0; edges that are short against the distance may have a whole of 0.
-float share(float part, float whole) { return whole > 0.0f ? std::min(part / whole, 1.0f) : 0.0f; }
+float share(float part, float whole) {
+    return whole > 0.0f ? std::min(part / whole, 1.0f) : 0.0f;
+}
 
 // Of slivers the plane is not known well enough: the nearest of the three edges is.
 ClosestPoint closestOnEdges(const glm::vec3& p, const TriangleCorners& corners) {
@@ -26,7 +28,7 @@ ClosestPoint closestOnEdges(const glm::vec3& p, const TriangleCorners& corners) 
         glm::vec3 weights(0.0f);
         weights[k] = 1.0f - t;
         weights[(k + 1) % 3] = t;
-        const ClosestPoint candidate = at(p, corners, weights);
+        const ClosestPoint candidate = pointWith(p, corners, weights);
         if (candidate.squaredDistance < best.squaredDistance) best = candidate;
     }
     return best;
@@ -37,33 +39,34 @@ ClosestPoint closestOnEdges(const glm::vec3& p, const TriangleCorners& corners) 
 ClosestPoint closestOnTriangle(const glm::vec3& p, const TriangleCorners& corners) {
     const glm::vec3 ab = corners[1] - corners[0], ac = corners[2] - corners[0], ap = p - corners[0];
     const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-    if (d1 <= 0.0f && d2 <= 0.0f) return at(p, corners, {1, 0, 0});
+    if (d1 <= 0.0f && d2 <= 0.0f) return pointWith(p, corners, {1, 0, 0});
     const glm::vec3 bp = p - corners[1];
     const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-    if (d3 >= 0.0f && d4 <= d3) return at(p, corners, {0, 1, 0});
+    if (d3 >= 0.0f && d4 <= d3) return pointWith(p, corners, {0, 1, 0});
     const float vc = d1 * d4 - d3 * d2;
     if (vc <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
         const float v = share(d1, d1 - d3);
-        return at(p, corners, {1 - v, v, 0});
+        return pointWith(p, corners, {1 - v, v, 0});
     }
     const glm::vec3 cp = p - corners[2];
     const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-    if (d6 >= 0.0f && d5 <= d6) return at(p, corners, {0, 0, 1});
+    if (d6 >= 0.0f && d5 <= d6) return pointWith(p, corners, {0, 0, 1});
     const float vb = d5 * d2 - d1 * d6;
     if (vb <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
         const float w = share(d2, d2 - d6);
-        return at(p, corners, {1 - w, 0, w});
+        return pointWith(p, corners, {1 - w, 0, w});
     }
     const float va = d3 * d6 - d5 * d4;
     if (va <= 0.0f && d4 - d3 >= 0.0f && d5 - d6 >= 0.0f) {
         const float w = share(d4 - d3, (d4 - d3) + (d5 - d6));
-        return at(p, corners, {0, 1 - w, w});
+        return pointWith(p, corners, {0, 1 - w, w});
     }
     const float sum = va + vb + vc;
     const glm::vec3 normal = glm::cross(ab, ac);
     const float longest2 = std::max(glm::dot(ab, ab), glm::dot(ac, ac));
-    if (!(sum > 0.0f) || glm::dot(normal, normal) < 1e-8f * longest2 * longest2) return closestOnEdges(p, corners);
-    return at(p, corners, {va / sum, vb / sum, vc / sum});
+    if (!(sum > 0.0f) || glm::dot(normal, normal) < 1e-8f * longest2 * longest2)
+        return closestOnEdges(p, corners);
+    return pointWith(p, corners, {va / sum, vb / sum, vc / sum});
 }
 
 TriangleTree::TriangleTree(std::vector<TriangleCorners> triangles) : triangles_(std::move(triangles)) {

@@ -1,7 +1,7 @@
 // Finds the closest point of a set of triangles: a tree of boxes, built once per node or piece.
 // Used to measure geometric errors and to carry colours from the original to a simplified mesh.
-// Deterministic: of equally close triangles the one met first in the tree is taken, and the tree depends on the
-// triangles alone.
+// Deterministic: of equally close triangles the one met first in the tree is taken, and the tree depends on
+// the triangles alone.
 #pragma once
 
 #include <array>
@@ -32,10 +32,11 @@ class TriangleTree {
 
     [[nodiscard]] std::span<const TriangleCorners> triangles() const { return triangles_; }
 
-    // The closest point of the triangles that `accepts(index)` admits, if closer than `best`; else `best`. Stops at the
-    // first one not farther than `goodEnough` (squared).
+    // The closest point of the triangles that `accepts(index)` admits, if closer than `best`; else `best`.
+    // Stops at the first one not farther than `goodEnough` (squared).
     template <class Accepts>
-    [[nodiscard]] ClosestPoint closest(const glm::vec3& p, ClosestPoint best, float goodEnough, Accepts&& accepts) const;
+    [[nodiscard]] ClosestPoint closest(const glm::vec3& p, ClosestPoint best, float goodEnough,
+                                       Accepts&& accepts) const;
     [[nodiscard]] ClosestPoint closest(const glm::vec3& p) const {
         return closest(p, {}, -1.0f, [](std::uint32_t) { return true; });
     }
@@ -49,7 +50,8 @@ class TriangleTree {
   private:
     struct Node {
         Box3f box;
-        std::uint32_t first = 0;  // leaf: into order_; inner node: its second child (the first one follows it)
+        std::uint32_t first =
+            0;  // leaf: into order_; inner node: its second child (the first one follows it)
         std::uint32_t count = 0;  // 0 for inner nodes
     };
     static constexpr std::uint32_t kLeafSize = 4;
@@ -66,7 +68,8 @@ class TriangleTree {
 };
 
 template <class Accepts>
-ClosestPoint TriangleTree::closest(const glm::vec3& p, ClosestPoint best, float goodEnough, Accepts&& accepts) const {
+ClosestPoint TriangleTree::closest(const glm::vec3& p, ClosestPoint best, float goodEnough,
+                                   Accepts&& accepts) const {
     if (nodes_.empty()) return best;
     struct Entry {
         std::uint32_t node;

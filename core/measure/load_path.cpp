@@ -1,6 +1,7 @@
 // Finding a camera path by its name: built in, a file, or a file of resources/paths/.
 #include <algorithm>
 
+#include "base/program_folder.h"
 #include "base/file_io.h"
 #include "measure/built_in_path.h"
 #include "measure/camera_path.h"
@@ -11,7 +12,7 @@ namespace {
 constexpr std::uint64_t kFileCapBytes = 64u << 20;
 
 std::filesystem::path shippedFolder() {
-    return std::filesystem::path(FB_SOURCE_DIR) / "resources" / "paths";
+    return programFolder() / "resources" / "paths";
 }
 
 std::string knownNames() {

@@ -1,8 +1,27 @@
+#include <sys/resource.h>
+
+#include <algorithm>
+
 #include "base/hash.h"
 #include "scenefile/limits.h"
 #include "scenefile/open_parts.h"
 
 namespace fb {
+namespace {
+
+// Every pack stays open, and the usual soft limit of 1024 files is less than a large scene has blocks. The
+// hard limit is the system's word; beyond it the opening itself fails and says so.
+void allowOpenFiles(std::size_t packs) {
+    constexpr rlim_t kOthers = 256;  // the program's own: libraries, devices, sockets
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    const rlim_t wanted = std::min(limit.rlim_max, static_cast<rlim_t>(packs) + kOthers);
+    if (limit.rlim_cur >= wanted) return;
+    limit.rlim_cur = wanted;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+}  // namespace
 
 Result<void> checkSceneFolder(const std::filesystem::path& folder) {
     std::error_code ignored;
@@ -78,6 +97,7 @@ Result<Scene> openScene(const std::filesystem::path& folder) {
     scene.info = std::move(toml->info);
     scene.sceneHash = hierarchy->hash;
     scene.packs.resize(std::size_t{hierarchy->file.packs.back().number} + 1);
+    allowOpenFiles(hierarchy->file.packs.size());
     for (const StoredPack& stored : hierarchy->file.packs) {
         Result<FileReader> pack = openPack(folder, stored);
         if (!pack) return passOn(pack);

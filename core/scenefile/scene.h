@@ -1,5 +1,6 @@
 // A scene on disk (design section 5): NAME.fbscene/ with scene.toml, hierarchy.bin and blocks/NNNNN.pack.
-// openScene() reads and verifies all but the payloads; readPayload() reads one of those; SceneWriter makes a scene.
+// openScene() reads and verifies all but the payloads; readPayload() reads one of those;
+// PackWriter and writeScene() make a scene.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+#include "base/program_folder.h"
 #include "settings/preset.h"
 
 #include <toml++/toml.h>
@@ -135,7 +136,7 @@ std::filesystem::path userPresetFolder() {
 std::vector<PresetFile> listPresets() {
     std::vector<PresetFile> files;
     const std::pair<std::filesystem::path, bool> folders[] = {
-        {userPresetFolder(), false}, {std::filesystem::path(FB_SOURCE_DIR) / "presets", true}};
+        {userPresetFolder(), false}, {programFolder() / "presets", true}};
     for (const auto& [folder, shipped] : folders) {
         std::error_code missing;
         for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {

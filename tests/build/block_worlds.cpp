@@ -32,12 +32,14 @@ SourceMesh makeSphere(int slices, int stacks) {
         const double polar = std::numbers::pi * j / stacks;
         for (int i = 0; i < slices; ++i) {
             const double around = 2.0 * std::numbers::pi * i / slices;
-            mesh.positions.emplace_back(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
-                                        std::cos(polar));
+            mesh.positions.emplace_back(std::sin(polar) * std::cos(around),
+                                        std::sin(polar) * std::sin(around), std::cos(polar));
         }
     }
     mesh.positions.emplace_back(0, 0, -1);
-    const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(1 + (j - 1) * slices + i % slices); };
+    const auto at = [&](int i, int j) {
+        return static_cast<std::uint32_t>(1 + (j - 1) * slices + i % slices);
+    };
     const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
     for (int i = 0; i < slices; ++i) {
         mesh.triangles.emplace_back(0u, at(i, 1), at(i + 1, 1));
@@ -63,7 +65,8 @@ SourceBlock blockOf(SourceMesh mesh, std::shared_ptr<const Image> image) {
     return block;
 }
 
-std::shared_ptr<const Image> paintImage(int width, int height, const std::function<glm::u8vec3(int, int)>& paint) {
+std::shared_ptr<const Image> paintImage(int width, int height,
+                                        const std::function<glm::u8vec3(int, int)>& paint) {
     auto image = std::make_shared<Image>(Image{width, height, 3, {}, true});
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {

@@ -11,8 +11,8 @@
 
 namespace fb::test {
 
-// A sheet of columns x rows squares, two triangles each, spanning (0,0,0) to (width, height, 0); uv runs over [0,1]^2 with
-// row 0 of the texture at y = 0. `lift` gives z from (x, y).
+// A sheet of columns x rows squares, two triangles each, spanning (0,0,0) to (width, height, 0); uv runs over
+// [0,1]^2 with row 0 of the texture at y = 0. `lift` gives z from (x, y).
 struct Sheet {
     int columns = 1, rows = 1;
     double width = 1.0, height = 1.0;
@@ -20,7 +20,8 @@ struct Sheet {
 };
 [[nodiscard]] SourceMesh makeSheet(const Sheet& sheet);
 
-// A closed sphere of 2 * slices * (stacks - 1) triangles with radius 1 about the origin, without texture coordinates.
+// A closed sphere of 2 * slices * (stacks - 1) triangles with radius 1 about the origin, without texture
+// coordinates.
 [[nodiscard]] SourceMesh makeSphere(int slices, int stacks);
 
 // A block with one material; with `image` textured by it.

@@ -79,7 +79,8 @@ TEST(SplitMesh, CutsATriangleAcrossOnePlaneIntoThree) {
     ASSERT_EQ(cut.pieces.size(), 2u);
     EXPECT_EQ(cut.pieces[0].size(), 2u);
     EXPECT_EQ(cut.pieces[1].size(), 1u);
-    EXPECT_EQ(world.shapes(cut, 1), (std::set<std::vector<std::array<int, 3>>>{{{50, 0, 0}, {100, 0, 0}, {50, 20, 0}}}));
+    EXPECT_EQ(world.shapes(cut, 1),
+              (std::set<std::vector<std::array<int, 3>>>{{{50, 0, 0}, {100, 0, 0}, {50, 20, 0}}}));
     EXPECT_EQ(areaOf(world.mesh, world.piece(cut, 0)), 1500.0);
     EXPECT_EQ(areaOf(world.mesh, world.piece(cut, 1)), 500.0);
     EXPECT_EQ(world.mesh.positions.size(), 5u);  // two new ones
@@ -90,8 +91,10 @@ TEST(SplitMesh, CutsATriangleWithOneVertexOnThePlaneIntoTwo) {
     world.add(world.wedge({0, 0, 0}), world.wedge({100, 0, 0}), world.wedge({50, 40, 0}));
     const Level cut = world.split(2);
     ASSERT_EQ(cut.pieces.size(), 2u);
-    EXPECT_EQ(world.shapes(cut, 0), (std::set<std::vector<std::array<int, 3>>>{{{0, 0, 0}, {50, 0, 0}, {50, 40, 0}}}));
-    EXPECT_EQ(world.shapes(cut, 1), (std::set<std::vector<std::array<int, 3>>>{{{50, 0, 0}, {100, 0, 0}, {50, 40, 0}}}));
+    EXPECT_EQ(world.shapes(cut, 0),
+              (std::set<std::vector<std::array<int, 3>>>{{{0, 0, 0}, {50, 0, 0}, {50, 40, 0}}}));
+    EXPECT_EQ(world.shapes(cut, 1),
+              (std::set<std::vector<std::array<int, 3>>>{{{50, 0, 0}, {100, 0, 0}, {50, 40, 0}}}));
     EXPECT_EQ(world.mesh.positions.size(), 4u);
 }
 
@@ -153,7 +156,8 @@ TEST(SplitMesh, CutsAcrossTheLongestAxis) {
 TEST(SplitMesh, InterpolatesTextureCoordinatesColoursAndNormalsAtTheCut) {
     World world;
     world.mesh.normals = {{1, 0, 0}, {0, 1, 0}};
-    const std::uint32_t a = world.wedge({0, 0, 0}, {0.0f, 0.25f}), b = world.wedge({400, 0, 0}, {1.0f, 0.75f}),
+    const std::uint32_t a = world.wedge({0, 0, 0}, {0.0f, 0.25f}),
+                        b = world.wedge({400, 0, 0}, {1.0f, 0.75f}),
                         c = world.wedge({0, 40, 0}, {0.0f, 0.5f});
     world.mesh.wedges[a].colour = {0, 100, 200, 255};
     world.mesh.wedges[b].colour = {200, 100, 0, 255};
@@ -216,7 +220,8 @@ TEST(SplitMesh, GivesBothSidesOfACutTheSameVertices) {
 }
 
 // Counts the directed edges of a level, all pieces together.
-std::map<std::pair<std::uint32_t, std::uint32_t>, int> directedEdges(const BlockMesh& mesh, const Level& level) {
+std::map<std::pair<std::uint32_t, std::uint32_t>, int> directedEdges(const BlockMesh& mesh,
+                                                                     const Level& level) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
     for (const MeshTriangle& t : level.triangles) {
         for (int k = 0; k < 3; ++k) {
@@ -226,34 +231,26 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> directedEdges(const Block
     return edges;
 }
 
-// A closed surface stays closed if and only if no cut leaves a T-junction: within pieces, between siblings and where
-// the planes of neighbouring pieces end on a common border.
+// A closed surface stays closed if and only if no cut leaves a T-junction: within pieces, between siblings
+// and where the planes of neighbouring pieces end on a common border.
 TEST(SplitMesh, LeavesNoTJunctionBetweenAnyPiecesOfALevel) {
-    Result<QuantisedBlock> sphere = quantiseBlock(test::blockOf(test::makeSphere(40, 20)), BlockTextures{});
-    ASSERT_TRUE(sphere);
+    QuantisedBlock sphere = quantiseBlock(test::blockOf(test::makeSphere(40, 20)), BlockTextures{});
     Level level;
-    level.triangles = sphere->triangles;
+    level.triangles = sphere.triangles;
     level.pieces = {{0, 0, static_cast<std::uint32_t>(level.triangles.size())}};
-    const double area = areaOf(sphere->mesh, level.triangles);
+    const double area = areaOf(sphere.mesh, level.triangles);
     for (int depth = 0; depth < 4; ++depth) {
         SplitCounters counters;
-        level = splitLevel(sphere->mesh, level, 3, counters);
+        level = splitLevel(sphere.mesh, level, 3, counters);
         EXPECT_EQ(counters.degenerateTriangles, 0u);
-        for (const auto& [edge, count] : directedEdges(sphere->mesh, level)) {
-            const auto edges = directedEdges(sphere->mesh, level);
-            ASSERT_EQ(count, 1);
-            const auto back = edges.find({edge.second, edge.first});
-            ASSERT_TRUE(back != edges.end() && back->second == 1) << "open edge at depth " << depth;
-            break;
-        }
-        const auto edges = directedEdges(sphere->mesh, level);
+        const auto edges = directedEdges(sphere.mesh, level);
         std::size_t open = 0;
         for (const auto& [edge, count] : edges) {
             const auto back = edges.find({edge.second, edge.first});
             if (count != 1 || back == edges.end()) ++open;
         }
         EXPECT_EQ(open, 0u) << "at depth " << depth;
-        EXPECT_NEAR(areaOf(sphere->mesh, level.triangles), area, 1e-6 * area);
+        EXPECT_NEAR(areaOf(sphere.mesh, level.triangles), area, 1e-6 * area);
     }
     EXPECT_GT(level.pieces.size(), 60u);
 }
@@ -275,7 +272,8 @@ RC_GTEST_PROP(SplitMesh, KeepsAreaAndBoundsOfRandomTriangles, (std::uint64_t see
     const int spread = 1 << (4 + random.index(18));
     for (int i = 0; i < 3 + size / 8; ++i) {
         GridPoint p;
-        for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<int>(random.index(static_cast<std::uint64_t>(spread)));
+        for (int axis = 0; axis < 3; ++axis)
+            p[axis] = static_cast<int>(random.index(static_cast<std::uint64_t>(spread)));
         if (random.index(4) == 0) p.z = 7;
         wedges.push_back(world.wedge(p));
     }
@@ -292,7 +290,8 @@ RC_GTEST_PROP(SplitMesh, KeepsAreaAndBoundsOfRandomTriangles, (std::uint64_t see
         // Each snapped vertex moves by less than a step, each edge is at most 2 * spread long.
         RC_ASSERT(std::abs(areaOf(world.mesh, level.triangles) - area) <=
                   4.0 * spread * static_cast<double>(level.triangles.size()));
-        if (spread > 1 << 18) RC_ASSERT(std::abs(areaOf(world.mesh, level.triangles) - area) <= 1e-4 * area + 4.0 * spread);
+        if (spread > 1 << 18)
+            RC_ASSERT(std::abs(areaOf(world.mesh, level.triangles) - area) <= 1e-4 * area + 4.0 * spread);
         std::uint32_t end = 0;
         for (const Piece& piece : level.pieces) {
             RC_ASSERT(piece.begin == end);

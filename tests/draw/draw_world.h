@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/program_folder.h"
 #include "draw/gl_messages.h"
 #include "draw/offscreen_context.h"
 #include "draw/renderer.h"
@@ -16,7 +17,7 @@ namespace fb::draw_test {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-inline const std::filesystem::path kShaders = std::filesystem::path(FB_SOURCE_DIR) / "shaders";
+inline const std::filesystem::path kShaders = programFolder() / "shaders";
 
 // One context for all tests of the program: making one takes longer than most tests.
 OffscreenContext& context();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/program_folder.h"
 #include "measure/camera_path.h"
 
 namespace fb {
@@ -264,7 +265,7 @@ TEST(ShippedPaths, AreFoundByNameAndAreWhole) {
         EXPECT_EQ(path->durationSeconds(), 30.0);
     }
     int files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(FB_SOURCE_DIR "/resources/paths")) {
+    for (const auto& entry : std::filesystem::directory_iterator(programFolder() / "resources" / "paths")) {
         const Result<CameraPath> path = loadPath(entry.path().string(), {});
         EXPECT_TRUE(path.has_value()) << path.error().oneLine();
         ++files;

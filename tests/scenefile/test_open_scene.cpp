@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstring>
 
@@ -84,11 +85,26 @@ TEST(OpenScene, RefusesEveryPrefixOfAPackAndOneByteMore) {
     Bytes bytes = test::readAll(path);
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         test::overwrite(path, std::span(bytes).first(length));
-        EXPECT_FALSE(openScene(folder.path())) << length;
+        EXPECT_TRUE(
+            says(lineOf(openScene(folder.path())), "00000.pack: has " + std::to_string(length) + " bytes"));
     }
     bytes.push_back(0);
     test::overwrite(path, bytes);
     EXPECT_TRUE(says(lineOf(openScene(folder.path())), "00000.pack: has"));
+}
+
+TEST(OpenScene, OpensMorePacksThanTheSoftLimitOfOpenFiles) {
+    const TemporaryFolder folder;
+    test::writeTinyScene(folder.path(), std::vector(80, test::tinyBlock(0)));
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    rlimit low = before;
+    low.rlim_cur = 60;
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &low), 0);
+    const Result<Scene> scene = openScene(folder.path());
+    EXPECT_EQ(lineOf(scene), "no error");
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+    EXPECT_TRUE(readPayload(*scene, 79));
 }
 
 // Two builds into one folder: the packs are whole, but not those of this hierarchy.bin.

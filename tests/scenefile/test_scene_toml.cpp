@@ -113,8 +113,9 @@ TEST(TomlString, EscapesWhatTomlCannotHold) {
     EXPECT_EQ(tomlString(std::string_view("\0", 1)), "\"\\u0000\"");
     EXPECT_EQ(tomlString("\xe2\x82\xac \xf0\x9f\x8c\x8d"),
               "\"\xe2\x82\xac \xf0\x9f\x8c\x8d\"");  // euro sign, globe
-    EXPECT_EQ(tomlString("\xff|\xc0\x80|\xe2\x82|\xed\xa0\x80|\xf4\x90\x80\x80"),
-              "\"?|??|??|???|????\"");  // not a lead, too long a form, cut short, surrogate, beyond the last
+    // A bad lead, a long form, cut short, a surrogate, beyond the last character, a long form of three.
+    EXPECT_EQ(tomlString("\xff|\xc0\x80|\xe2\x82|\xed\xa0\x80|\xf4\x90\x80\x80|\xe0\x80\xaf"),
+              "\"?|??|??|???|????|???\"");
 }
 
 TEST(SceneToml, NamesTheLineThatIsWrong) {

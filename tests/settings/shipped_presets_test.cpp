@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/program_folder.h"
 #include "settings/knob_table.h"
 #include "settings/preset.h"
 
@@ -10,7 +11,7 @@ namespace fb {
 namespace {
 
 std::filesystem::path shipped(const std::string& name) {
-    return std::filesystem::path(FB_SOURCE_DIR) / "presets" / (name + ".toml");
+    return programFolder() / "presets" / (name + ".toml");
 }
 
 TEST(ShippedPresets, AllParseAndSayInOneLineWhatTheyAreFor) {
