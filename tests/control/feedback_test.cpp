@@ -81,6 +81,18 @@ TEST(MedianGate, FollowsTheMedianOfTheLastThreeMeasurements) {
     }
 }
 
+TEST(MedianGate, DoesNotMindTheOrder) {
+    const double orders[][3] = {{1, 2, 3}, {1, 3, 2}, {2, 1, 3}, {2, 3, 1}, {3, 1, 2}, {3, 2, 1}};
+    ControlSettings settings = plainControl();
+    settings.medianGate = true;
+    settings.vTimeGain = 1.0;
+    for (const auto& order : orders) {
+        ControlState state = startControl(1.0, 0.0);
+        for (double measured : order) feedBack(state, settings, frontOf(1), measured);
+        EXPECT_EQ(state.vTimeMs, 2.0) << order[0] << order[1] << order[2];
+    }
+}
+
 TEST(MedianGate, CountsMeasurementsThatSayNothingNeitherWay) {
     ControlSettings settings = plainControl();
     settings.medianGate = true;
@@ -122,6 +134,11 @@ TEST(ShareTime, FallsWhileTheFrameTakesTooLong) {
     EXPECT_DOUBLE_EQ(scaleAfter(31.6, shareFrame(5)), 0.99);
     EXPECT_EQ(scaleAfter(31.5, shareFrame(0)), 1.0);
     EXPECT_EQ(scaleAfter(29.0, shareFrame(5)), 1.0) << "between the marks nothing moves";
+}
+
+TEST(ShareTime, DoesNotFallWhereNothingButRootsIsDrawn) {
+    EXPECT_EQ(scaleAfter(100.0, shareFrame(0, true)), 1.0);
+    EXPECT_DOUBLE_EQ(scaleAfter(20.0, shareFrame(1, true)), 1.01) << "it may rise";
 }
 
 TEST(ShareTime, StandsStillWhereTheEffectIsOff) {
