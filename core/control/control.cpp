@@ -31,11 +31,16 @@ void feedBackVTime(ControlState& state, const ControlSettings& settings, double 
 
 void feedBackShare(ControlState& state, const ControlSettings& settings, const FrameFeatures& f,
                    double actualMs) {
+    // The part of the target by which the frame missed it. Counters answer several frames late, and in steps
+    // of one size, large enough to follow a camera that leaves a street, the share swings about the target
+    // for ever (case 20).
+    const double missed = std::min(1.0, std::abs(actualMs / settings.targetMs - 1.0));
+    const double part = settings.shareProportional ? missed : 1.0;
     // Raised only if a fully loaded group was refused: otherwise it would wind up to its limit (case 18).
     if (actualMs < settings.shareLow * settings.targetMs && f.refusedGroups > 0) {
-        state.shareScale *= 1.0 + settings.shareGain;
+        state.shareScale *= 1.0 + settings.shareGain * part;
     } else if (actualMs > settings.shareHigh * settings.targetMs && !f.onlyRoots) {
-        state.shareScale *= 1.0 - settings.shareDrop;
+        state.shareScale *= 1.0 - settings.shareDrop * part;
     }
     state.shareScale = std::clamp(state.shareScale, kSmallestScale, settings.shareLimit);
 }

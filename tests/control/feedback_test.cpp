@@ -13,7 +13,14 @@ namespace {
 
 ControlSettings plainControl() {
     ControlSettings settings;
+    settings.targetMs = 30.0;
     settings.medianGate = false;
+    settings.vTimeGain = 0.3;
+    settings.shareGain = settings.shareDrop = 0.01;
+    settings.shareProportional = false;
+    settings.shareLow = 0.90;
+    settings.shareHigh = 1.05;
+    settings.shareLimit = 20.0;
     return settings;
 }
 
@@ -62,7 +69,8 @@ TEST(VTime, StaysWithinAnEighthAndEightTimesItsCalibratedValue) {
 }
 
 TEST(MedianGate, FollowsTheMedianOfTheLastThreeMeasurements) {
-    ControlSettings settings;
+    ControlSettings settings = plainControl();
+    settings.medianGate = true;
     settings.vTimeGain = 1.0;
     ControlState state = startControl(1.0, 0.0);
     const double measured[] = {2, 4, 1, 7, 3, 3, 8};
@@ -73,8 +81,21 @@ TEST(MedianGate, FollowsTheMedianOfTheLastThreeMeasurements) {
     }
 }
 
+TEST(MedianGate, DoesNotMindTheOrder) {
+    const double orders[][3] = {{1, 2, 3}, {1, 3, 2}, {2, 1, 3}, {2, 3, 1}, {3, 1, 2}, {3, 2, 1}};
+    ControlSettings settings = plainControl();
+    settings.medianGate = true;
+    settings.vTimeGain = 1.0;
+    for (const auto& order : orders) {
+        ControlState state = startControl(1.0, 0.0);
+        for (double measured : order) feedBack(state, settings, frontOf(1), measured);
+        EXPECT_EQ(state.vTimeMs, 2.0) << order[0] << order[1] << order[2];
+    }
+}
+
 TEST(MedianGate, CountsMeasurementsThatSayNothingNeitherWay) {
-    ControlSettings settings;
+    ControlSettings settings = plainControl();
+    settings.medianGate = true;
     settings.vTimeGain = 1.0;
     ControlState state = startControl(1.0, 0.5);
     for (double ms : {2.5, 4.5, 1.5}) feedBack(state, settings, frontOf(1), ms);
@@ -115,6 +136,11 @@ TEST(ShareTime, FallsWhileTheFrameTakesTooLong) {
     EXPECT_EQ(scaleAfter(29.0, shareFrame(5)), 1.0) << "between the marks nothing moves";
 }
 
+TEST(ShareTime, DoesNotFallWhereNothingButRootsIsDrawn) {
+    EXPECT_EQ(scaleAfter(100.0, shareFrame(0, true)), 1.0);
+    EXPECT_DOUBLE_EQ(scaleAfter(20.0, shareFrame(1, true)), 1.01) << "it may rise";
+}
+
 TEST(ShareTime, StandsStillWhereTheEffectIsOff) {
     FrameFeatures features = shareFrame(1);
     features.shareFeedback = false;
@@ -122,22 +148,45 @@ TEST(ShareTime, StandsStillWhereTheEffectIsOff) {
     EXPECT_EQ(scaleAfter(100.0, features), 1.0);
 }
 
+TEST(ShareTime, RisesAndFallsByGainsOfTheirOwn) {
+    ControlSettings settings = plainControl();
+    settings.shareGain = 0.25;
+    settings.shareDrop = 0.125;
+    EXPECT_EQ(scaleAfter(10.0, shareFrame(1), settings), 1.25);
+    EXPECT_EQ(scaleAfter(50.0, shareFrame(1), settings), 0.875);
+}
+
+TEST(ShareTime, MovesInProportionToWhatTheTimeIsFromTheTarget) {
+    ControlSettings settings = plainControl();
+    settings.shareProportional = true;
+    settings.shareGain = 0.25;
+    settings.shareDrop = 0.5;
+    EXPECT_EQ(scaleAfter(7.5, shareFrame(1), settings), 1.1875);  // a quarter of T: 0.75 * 0.25
+    EXPECT_EQ(scaleAfter(37.5, shareFrame(1), settings), 0.875);  // 1.25 T: 0.25 * 0.5
+    EXPECT_EQ(scaleAfter(60.0, shareFrame(1), settings), 0.5);    // 2 T: all of it
+    EXPECT_EQ(scaleAfter(6000.0, shareFrame(1), settings), 0.5);  // and never more
+    EXPECT_EQ(scaleAfter(27.0, shareFrame(1), settings), 1.0);    // the marks stay where they are
+    EXPECT_EQ(scaleAfter(31.5, shareFrame(1), settings), 1.0);
+}
+
 TEST(ShareTime, SeesTheMedianGatesTime) {
+    ControlSettings settings = plainControl();
+    settings.medianGate = true;
     ControlState state = startControl(0.25, 2.0);
-    for (int i = 0; i < 3; ++i) feedBack(state, {}, shareFrame(1), 29.0);
-    feedBack(state, {}, shareFrame(1), 500.0);
+    for (int i = 0; i < 3; ++i) feedBack(state, settings, shareFrame(1), 29.0);
+    feedBack(state, settings, shareFrame(1), 500.0);
     EXPECT_EQ(state.shareScale, 1.0);
     // The marginal time of the frames before, at this front's cost: 2 + 0.27 * 150 = 42.5 ms, whatever this
     // one took.
     FrameFeatures larger = shareFrame(1);
     larger.frontCost = 150.0;
-    feedBack(state, {}, larger, 10.0);
+    feedBack(state, settings, larger, 10.0);
     EXPECT_DOUBLE_EQ(state.shareScale, 0.99);
 }
 
 TEST(ShareTime, KeepsToItsLimits) {
     ControlSettings settings = plainControl();
-    settings.shareGain = 0.5;
+    settings.shareGain = settings.shareDrop = 0.5;
     settings.shareLimit = 4.0;
     ControlState state = startControl(0.25, 2.0);
     for (double expected : {1.5, 2.25, 3.375, 4.0, 4.0}) {
@@ -155,7 +204,7 @@ TEST(ShareTime, KeepsToItsLimits) {
 }
 
 TEST(ShareTime, IsAMultipleOfTheTargetLessTheOverheadSoThatANewTargetActsAtOnce) {
-    ControlSettings settings;
+    ControlSettings settings = plainControl();
     ControlState state = startControl(0.25, 2.0);
     state.shareScale = 1.5;
     EXPECT_EQ(shareMs(state, settings), 42.0);

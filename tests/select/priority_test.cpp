@@ -14,10 +14,20 @@ namespace {
 
 using V = glm::dvec3;
 
+SelectSettings usual() {
+    SelectSettings settings;
+    settings.cVis = 1.275;
+    settings.cFore = 0.45;
+    settings.cTextured = 0.5;
+    settings.frustumFalloff = 50.0;
+    settings.minDistance = 1.0;
+    settings.lookAhead = 0.25;
+    return settings;
+}
+
 // One node; c_textured = 0.5, so that `cost` is its cost.
 NodeView look(const TinyNode& node, const View& view, ActiveEffects effects = {},
-              SelectSettings settings = {}) {
-    settings.cTextured = 0.5;
+              const SelectSettings& settings = usual()) {
     return lookAtNode(makeWorld({node}), 0, view, settings, effects);
 }
 
@@ -44,14 +54,14 @@ TEST(Priority, WeighsTexturedAndUntexturedTrianglesByCTextured) {
     Hierarchy h = makeWorld({{.cost = 1, .benefit = 8}});
     h.texturedTriangles[0] = 100;
     h.untexturedTriangles[0] = 1000;
-    SelectSettings settings;
+    SelectSettings settings = usual();
     settings.cVis = 0.0;
     settings.cTextured = 0.127;  // 12.7 + 873
     EXPECT_DOUBLE_EQ(lookAtNode(h, 0, tinyView(), settings, {}).priority, 8.0 / 885.7);
 }
 
 TEST(Priority, TakesTheSmallestDistanceForAnEyeInsideTheBox) {
-    SelectSettings settings;
+    SelectSettings settings = usual();
     settings.cVis = 0.0;
     const TinyNode around{.cost = 1, .benefit = 3, .box = boxOf({-9, -9, -9}, {9, 9, 9})};
     const NodeView seen = look(around, tinyView(), {}, settings);
@@ -78,7 +88,7 @@ TEST(Priority, FallsOffLinearlyOutsideTheView) {
     EXPECT_NEAR(look({.cost = 2, .benefit = 4, .box = aside()}, tinyView(), effects).priority, 2.0 / 10001.0,
                 1e-15);
     // ... until the falloff is longer: fv = 1 - 98 / sqrt 2 / 140
-    SelectSettings settings;
+    SelectSettings settings = usual();
     settings.frustumFalloff = 140.0;
     EXPECT_NEAR(look({.cost = 2, .benefit = 4, .box = aside()}, tinyView(), effects, settings).priority,
                 2.0 / 10001.0 * (1.0 + 1.275 * (1.0 - 98.0 / std::sqrt(2.0) / 140.0)), 1e-15);
@@ -89,7 +99,7 @@ TEST(Priority, FallsOffLinearlyOutsideTheView) {
 // The camera looks along -z: a wall that faces it has the normal +z. The thesis prints the product with the
 // normal of the image plane; the other sign would give the facing wall 0.55.
 TEST(Foreshortening, AFacingWallMattersMoreThanItsBack) {
-    SelectSettings settings;
+    SelectSettings settings = usual();
     settings.cVis = 0.0;
     const ActiveEffects effects = with(Effect::foreshortening);
     const auto fore = [&](glm::vec3 normal) {
@@ -103,7 +113,7 @@ TEST(Foreshortening, AFacingWallMattersMoreThanItsBack) {
 }
 
 TEST(VelocityLead, MeasuresFromWhereTheCameraWillBe) {
-    SelectSettings settings;
+    SelectSettings settings = usual();
     settings.cVis = 0.0;
     const TinyNode node{.box = twoMetresAhead()};
     const auto distance = [&](V velocity, ActiveEffects effects) {
@@ -132,7 +142,7 @@ TEST(VelocityLead, ChangesNothingAboutWhatIsVisible) {
 RC_GTEST_PROP(Priority, EffectsThatAreOffDoNoArithmetic, ()) {
     Random r(*rc::gen::arbitrary<std::uint64_t>());
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    SelectSettings settings;
+    SelectSettings settings = usual();
     settings.cVis = r.uniform(0, 10);
     settings.cTextured = 0.5;
     settings.minDistance = r.uniform(0.1, 3);
@@ -162,7 +172,7 @@ RC_GTEST_PROP(Priority, IsFiniteAndAboveZeroWhateverTheNodeHolds, ()) {
                               std::numeric_limits<float>::quiet_NaN(),
                               1.0f};
     const auto odd = [&] { return oddities[r.index(std::size(oddities))]; };
-    SelectSettings settings;
+    SelectSettings settings = usual();
     settings.cVis = r.uniform(0, 100);
     settings.cFore = r.uniform(0, 0.99);
     settings.minDistance = r.uniform(1e-6, 1000);

@@ -118,12 +118,15 @@ TEST(Gate, ReadsBooleansAndChoicesByTheirWords) {
 }
 
 TEST(Gate, KeepsTheSwitchOfTheHysteresisBelowItsLimit) {
-    Settings settings;  // 15 and 45
+    Settings settings;
+    settings.select.hystSwitch = 15.0;
+    settings.select.hystLimit = 45.0;
+    const Settings before = settings;
     EXPECT_EQ(errorOf(setFromText(settings, "select.hyst_switch", "46", "--set")),
               "--set: select.hyst_switch: c_hystSwitch must not be above c_hystLimit (raise "
               "select.hyst_limit first)");
     EXPECT_FALSE(setFromText(settings, "select.hyst_limit", "14", "--set"));
-    EXPECT_TRUE(same(settings, Settings{}));
+    EXPECT_TRUE(same(settings, before));
     EXPECT_TRUE(setFromText(settings, "select.hyst_switch", "45", "--set")) << "equal is allowed";
     EXPECT_TRUE(setFromText(settings, "select.hyst_limit", "4510", "--set"));
     EXPECT_TRUE(setFromText(settings, "select.hyst_switch", "1500", "--set"));

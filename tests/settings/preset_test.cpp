@@ -71,7 +71,7 @@ void expectError(std::string_view toml, const std::string& start) {
 TEST(ParsePreset, NamesTheLineOfARuleThatTheWholePresetBreaks) {
     expectError("[select]\n\nhyst_switch = 1500\n",
                 "p.toml: line 3: select.hyst_switch: c_hystSwitch must not be above c_hystLimit");
-    expectError("[select]\nhyst_limit = 14\n", "p.toml: line 2: select.hyst_switch: c_hystSwitch must not");
+    expectError("[select]\nhyst_limit = 1\n", "p.toml: line 2: select.hyst_switch: c_hystSwitch must not");
 }
 
 TEST(ParsePreset, NamesTheLineOfWhatItDoesNotKnow) {

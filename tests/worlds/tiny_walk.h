@@ -11,12 +11,17 @@ namespace fb {
 
 using Front = std::vector<NodeId>;
 
-// Settings under which a priority is benefit / cost for what is 1 m away, and counters start at 0.
+// Settings under which a priority is benefit / cost for what is 1 m away, counters start at 0
+// and S = 15, L = 45.
 inline SelectSettings plainSettings(PolicyId policy) {
     SelectSettings settings;
     settings.policy = policy;
     settings.cVis = 0.0;
     settings.cTextured = 0.5;
+    settings.minDistance = 1.0;
+    settings.hystSwitch = 15.0;
+    settings.hystLimit = 45.0;
+    settings.hystUnit = 1.0;
     settings.hystStart = 0.0;
     settings.hystBand = false;
     return settings;
