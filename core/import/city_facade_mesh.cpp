@@ -115,6 +115,9 @@ void addFacade(const Facade& facade, const FacadeGrid& grid, Detail detail, std:
         places.push_back(placeColumn(facade, grid.columns[c]));
         drift.push_back(0.003f * signedUnit(latticeHash(facade.seed + 6, static_cast<std::int32_t>(c), 0)));
     }
+    // Walls between buildings never fall short of their plane, so that no slit opens where two stand back to
+    // back.
+    const double bulge = facade.role == FacadeRole::front ? 0.0 : 0.014;
     const std::size_t last = grid.columns.size() - 1;
     std::vector<std::uint32_t> below(grid.columns.size()), row(grid.columns.size());
     for (std::size_t r = 0; r < grid.rows.size(); ++r) {
@@ -125,7 +128,8 @@ void addFacade(const Facade& facade, const FacadeGrid& grid, Detail detail, std:
             double depth = depths.at(r, c);
             const bool end = columnLine.corner == 0 || columnLine.corner == facade.segments();
             if (columnLine.inset == 0.0 && !end) {
-                depth += 0.007 * smoothNoise(facade.seed + 7, columnLine.at, rowLine.at, 1.6) + drift[c] +
+                depth += bulge + 0.007 * smoothNoise(facade.seed + 7, columnLine.at, rowLine.at, 1.6) +
+                         drift[c] +
                          0.004 * signedUnit(latticeHash(facade.seed + 8, static_cast<std::int32_t>(c),
                                                         static_cast<std::int32_t>(r)));
             }

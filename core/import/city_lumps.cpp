@@ -68,12 +68,12 @@ void addThing(const Thing& thing, double spacing, std::uint32_t material, MeshBu
         // Vertices of the cube's surface by their lattice place.
         std::vector<std::uint32_t> vertices(static_cast<std::size_t>((n.x + 1) * (n.y + 1) * (n.z + 1)), ~0u);
         const bool alongX = lump.size.x >= lump.size.z;
-        const auto vertexAt = [&](int i, int j, int k) {
-            const int index = (k * (n.y + 1) + j) * (n.x + 1) + i;
+        const auto vertexAt = [&](const glm::ivec3& at) {
+            const int index = (at.z * (n.y + 1) + at.y) * (n.x + 1) + at.x;
             std::uint32_t& vertex = vertices[static_cast<std::size_t>(index)];
             if (vertex != ~0u) return vertex;
-            const glm::dvec3 cube(static_cast<double>(i) / n.x - 0.5, static_cast<double>(j) / n.y,
-                                  static_cast<double>(k) / n.z - 0.5);
+            const glm::dvec3 cube(static_cast<double>(at.x) / n.x - 0.5, static_cast<double>(at.y) / n.y,
+                                  static_cast<double>(at.z) / n.z - 0.5);
             const glm::dvec3 p = shapePoint(lump.shape, cube, alongX) * lump.size;
             const double wave = smoothNoise(lump.seed, p.x + 0.61 * p.y, p.z + 0.73 * p.y, 0.5);
             const double grain = signedUnit(latticeHash(lump.seed + 1, index, 0));
@@ -82,30 +82,28 @@ void addThing(const Thing& thing, double spacing, std::uint32_t material, MeshBu
             vertex = mesh.addVertex(lump.base + p + away * (2.0 * out));
             return vertex;
         };
-        const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        // One after the other: vertices are numbered in the order of the calls, which compilers may choose
+        // for arguments.
+        const auto quad = [&](const glm::ivec3& at, const glm::ivec3& u, const glm::ivec3& v) {
+            const std::uint32_t a = vertexAt(at), b = vertexAt(at + u);
+            const std::uint32_t c = vertexAt(at + u + v), d = vertexAt(at + v);
             mesh.addQuad(a, b, c, d, material);
         };
+        const glm::ivec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
         for (int i = 0; i < n.x; ++i) {
             for (int j = 0; j < n.y; ++j) {
-                quad(vertexAt(i, j, n.z), vertexAt(i + 1, j, n.z), vertexAt(i + 1, j + 1, n.z),
-                     vertexAt(i, j + 1, n.z));
-                quad(vertexAt(i + 1, j, 0), vertexAt(i, j, 0), vertexAt(i, j + 1, 0),
-                     vertexAt(i + 1, j + 1, 0));
+                quad({i, j, n.z}, x, y);
+                quad({i + 1, j, 0}, -x, y);
             }
             for (int k = 0; k < n.z; ++k) {
-                quad(vertexAt(i, n.y, k + 1), vertexAt(i + 1, n.y, k + 1), vertexAt(i + 1, n.y, k),
-                     vertexAt(i, n.y, k));
-                if (!lump.underside) continue;
-                quad(vertexAt(i, 0, k), vertexAt(i + 1, 0, k), vertexAt(i + 1, 0, k + 1),
-                     vertexAt(i, 0, k + 1));
+                quad({i, n.y, k + 1}, x, -z);
+                if (lump.underside) quad({i, 0, k}, x, z);
             }
         }
         for (int k = 0; k < n.z; ++k) {
             for (int j = 0; j < n.y; ++j) {
-                quad(vertexAt(n.x, j, k + 1), vertexAt(n.x, j, k), vertexAt(n.x, j + 1, k),
-                     vertexAt(n.x, j + 1, k + 1));
-                quad(vertexAt(0, j, k), vertexAt(0, j, k + 1), vertexAt(0, j + 1, k + 1),
-                     vertexAt(0, j + 1, k));
+                quad({n.x, j, k + 1}, -z, y);
+                quad({0, j, k}, z, y);
             }
         }
     }

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "city/city_helpers.h"
+#include "city/load_city.h"
 #include "import/city_budget.h"
 
 namespace fb {

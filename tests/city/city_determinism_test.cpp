@@ -2,7 +2,7 @@
 #include <set>
 #include <thread>
 
-#include "city/city_helpers.h"
+#include "city/load_city.h"
 
 namespace fb {
 namespace {

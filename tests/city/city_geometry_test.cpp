@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "city/city_helpers.h"
+#include "city/load_city.h"
 
 namespace fb {
 namespace {
