@@ -12,9 +12,9 @@ namespace fb {
 namespace {
 
 // The greatest alignment that OpenGL lets a driver ask for uniform and storage buffers.
-constexpr std::uint64_t kAlignBytes = 256;
+constexpr std::uint64_t kBindAlignBytes = 256;
 constexpr std::uint64_t kSmallestPartBytes = 64 << 10;
-constexpr GLbitfield kMapping = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+constexpr GLbitfield kFrameMapping = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ void FrameRing::forgetFences() {
 }
 
 std::uint64_t FrameRing::roomFor(std::size_t count, std::size_t size) {
-    return (count * size + kAlignBytes - 1) / kAlignBytes * kAlignBytes;
+    return (count * size + kBindAlignBytes - 1) / kBindAlignBytes * kBindAlignBytes;
 }
 
 Result<void> FrameRing::begin(std::uint64_t bytes) {
@@ -39,10 +39,11 @@ Result<void> FrameRing::begin(std::uint64_t bytes) {
         const auto size = static_cast<GLsizeiptr>(partBytes * kParts);
         GlBuffer larger = GlBuffer::make();
         clearGlErrors();
-        glNamedBufferStorage(larger.name(), size, nullptr, kMapping);
+        glNamedBufferStorage(larger.name(), size, nullptr, kFrameMapping);
         if (auto made = takeGlError("making the frame buffer of " + std::to_string(size) + " bytes"); !made)
             return made;
-        auto* mapped = static_cast<std::uint8_t*>(glMapNamedBufferRange(larger.name(), 0, size, kMapping));
+        auto* mapped =
+            static_cast<std::uint8_t*>(glMapNamedBufferRange(larger.name(), 0, size, kFrameMapping));
         if (mapped == nullptr) return failure("", "", "the driver does not map the frame buffer");
         // Draws under way keep the old buffer alive until they are done with it.
         buffer_ = std::move(larger);

@@ -13,9 +13,9 @@ namespace fb {
 
 namespace {
 
-constexpr std::uint64_t kAlignBytes = 64;
+constexpr std::uint64_t kStagingAlignBytes = 64;
 constexpr std::size_t kMostFences = 64;
-constexpr GLbitfield kMapping = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+constexpr GLbitfield kStagingMapping = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
 
 // `source` is an address, or an offset into the bound unpack buffer.
 void copyLevels(const TextureLevels& into, const std::uint8_t* source) {
@@ -37,10 +37,10 @@ Result<UploadStaging> UploadStaging::create(std::size_t ringBytes) {
     clearGlErrors();
     staging.ring_ = GlBuffer::make();
     const auto size = static_cast<GLsizeiptr>(ringBytes);
-    glNamedBufferStorage(staging.ring_.name(), size, nullptr, kMapping);
+    glNamedBufferStorage(staging.ring_.name(), size, nullptr, kStagingMapping);
     if (auto made = takeGlError("making the upload ring"); !made) return passOn(made);
     staging.mapped_ =
-        static_cast<std::uint8_t*>(glMapNamedBufferRange(staging.ring_.name(), 0, size, kMapping));
+        static_cast<std::uint8_t*>(glMapNamedBufferRange(staging.ring_.name(), 0, size, kStagingMapping));
     if (staging.mapped_ == nullptr) return failure("", "", "the driver does not map the upload ring");
     staging.ringBytes_ = ringBytes;
     staging.pending_.reserve(kMostFences);
@@ -89,7 +89,7 @@ void UploadStaging::retireOldest() {
 
 bool UploadStaging::stage(std::span<const std::uint8_t> bytes, std::uint64_t& ringOffset) {
     if (bytes.size() > ringBytes_) return false;
-    std::uint64_t begin = (writtenEnd_ + kAlignBytes - 1) / kAlignBytes * kAlignBytes;
+    std::uint64_t begin = (writtenEnd_ + kStagingAlignBytes - 1) / kStagingAlignBytes * kStagingAlignBytes;
     const std::uint64_t untilWrap = ringBytes_ - begin % ringBytes_;
     if (bytes.size() > untilWrap) begin += untilWrap;
     while (begin + bytes.size() > retiredEnd_ + ringBytes_) {
