@@ -28,19 +28,12 @@ Result<MeshFile> parse(const MeshBytes& input, MeshFormat format, ImportReport& 
 
 }  // namespace
 
-Result<LoadedMesh> loadMesh(const std::filesystem::path& file, const ImportOptions& options,
-                            ImportReport& report) {
-    std::error_code problem;
-    if (!std::filesystem::exists(file, problem)) return failure(file.string(), {}, "does not exist");
-    if (!std::filesystem::is_regular_file(file, problem)) return failure(file.string(), {}, "is not a file");
-    Result<std::vector<std::uint8_t>> bytes = readFile(file, kMaxMeshFileBytes);
-    if (!bytes) return passOn(bytes);
-
-    LoadedMesh loaded;
-    loaded.contentHash = hashBytes(bytes->data(), bytes->size());
+Result<LoadedMesh> parseMesh(const MeshBytes& bytes, const ImportOptions& options, ImportReport& report) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // some editors put it in front of text
-    MeshBytes input{file, *bytes};
+    MeshBytes input = bytes;
     if (input.text().substr(0, 3) == kByteOrderMark) input.bytes = input.bytes.subspan(3);
+    LoadedMesh loaded;
+    loaded.contentHash = hashBytes(bytes.bytes.data(), bytes.bytes.size());
     Result<MeshFormat> format = recogniseFormat(input);
     if (!format) return passOn(format);
     loaded.format = *format;
@@ -50,10 +43,22 @@ Result<LoadedMesh> loadMesh(const std::filesystem::path& file, const ImportOptio
         return input.failure({}, "contains no triangles",
                              report.ignoredElements > 0 ? "points and lines cannot be shown" : "");
     }
-    if (Result<void> checked = checkMesh(mesh->block.mesh, file.string()); !checked) return passOn(checked);
-    if (Result<void> given = addUnnamedTexture(*mesh, file, options, report); !given) return passOn(given);
+    if (Result<void> checked = checkMesh(mesh->block.mesh, input.file.string()); !checked)
+        return passOn(checked);
+    if (Result<void> given = addUnnamedTexture(*mesh, input.file, options, report); !given)
+        return passOn(given);
     loaded.mesh = std::move(*mesh);
     return loaded;
+}
+
+Result<LoadedMesh> loadMesh(const std::filesystem::path& file, const ImportOptions& options,
+                            ImportReport& report) {
+    std::error_code problem;
+    if (!std::filesystem::exists(file, problem)) return failure(file.string(), {}, "does not exist");
+    if (!std::filesystem::is_regular_file(file, problem)) return failure(file.string(), {}, "is not a file");
+    Result<std::vector<std::uint8_t>> bytes = readFile(file, kMaxMeshFileBytes);
+    if (!bytes) return passOn(bytes);
+    return parseMesh({file, *bytes}, options, report);
 }
 
 Result<SourceBlock> readMeshFile(const std::filesystem::path& file, const ImportOptions& options,

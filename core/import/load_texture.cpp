@@ -20,7 +20,8 @@ namespace {
 struct ImageFormat {
     const char* plugin;  // of OpenImageIO, chosen by us: by itself it would try every plugin it has
     bool isLossless;
-    bool inflatesWithoutLimit;  // its encoding has no least size per pixel
+    bool inflatesWithoutLimit;     // its encoding has no least size per pixel
+    bool multipliesAlpha = false;  // the plugin multiplies colours with alpha, asked or not
 };
 
 std::string_view textOf(std::span<const std::uint8_t> bytes) {
@@ -36,7 +37,7 @@ std::optional<ImageFormat> recognise(std::span<const std::uint8_t> bytes, std::s
         return ImageFormat{"tiff", true, false};
     }
     if (startsWith(text, "RIFF") && text.substr(8, 4) == "WEBP") {
-        return ImageFormat{"webp", text.substr(12, 4) == "VP8L", true};
+        return ImageFormat{"webp", text.substr(12, 4) == "VP8L", true, true};
     }
     if (startsWith(text, "BM")) return ImageFormat{"bmp", true, false};
     if (startsWith(text, "GIF8")) return ImageFormat{"gif", true, false};
@@ -97,6 +98,7 @@ class Decoder {
         const bool isLinear = spec.get_string_attribute("oiio:ColorSpace") == "Linear";
         const bool read = isLinear ? readLinear(*input, spec, image) : readBytes(*input, image);
         if (!read) return broken(*input);
+        if (format->multipliesAlpha && image.channels == 4) divideByAlpha(image);
         return image;
     }
 
@@ -155,6 +157,17 @@ class Decoder {
             }
         }
         return true;
+    }
+
+    // Exact to 1 of 255 above half opacity; what is invisible stays black.
+    static void divideByAlpha(Image& image) {
+        for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+            const unsigned alpha = image.pixels[i + 3];
+            for (std::size_t c = i; alpha > 0 && c < i + 3; ++c) {
+                image.pixels[c] =
+                    static_cast<std::uint8_t>(std::min((image.pixels[c] * 255u + alpha / 2) / alpha, 255u));
+            }
+        }
     }
 
     [[nodiscard]] tl::unexpected<Error> broken(const OIIO::ImageInput& input) const {

@@ -8,17 +8,17 @@
 namespace fb {
 namespace {
 
-bool isUsable(const glm::dvec3& p) {
-    return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-           std::abs(p.z) <= kMaxCoordinate;
-}
-
 template <class T>
 bool fits(const std::vector<T>& attribute, std::size_t vertices) {
     return attribute.empty() || attribute.size() == vertices;
 }
 
 }  // namespace
+
+bool isUsablePosition(const glm::dvec3& p) {
+    return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+           std::abs(p.z) <= kMaxCoordinate;
+}
 
 Result<void> checkMesh(const SourceMesh& mesh, const std::string& what) {
     const std::size_t vertices = mesh.positions.size();
@@ -38,9 +38,9 @@ Result<void> checkMesh(const SourceMesh& mesh, const std::string& what) {
                     what, "triangle " + std::to_string(t),
                     "refers to vertex " + std::to_string(vertex) + " of " + std::to_string(vertices));
             }
-            if (!isUsable(mesh.positions[vertex])) {
+            if (!isUsablePosition(mesh.positions[vertex])) {
                 return failure(what, "vertex " + std::to_string(vertex),
-                               "has a coordinate that is not a finite number, or larger than 1e15");
+                               "has a coordinate that is not a finite number, or above 1e15");
             }
         }
     }

@@ -48,17 +48,19 @@ enum class MeshFormat : std::uint8_t { obj, ply, stl, off, gltf, glb };
 [[nodiscard]] Result<MeshFile> readOff(const MeshBytes& input, ImportReport& report);
 [[nodiscard]] Result<MeshFile> readGltf(const MeshBytes& input, ImportReport& report);
 
-// Reads, recognises, parses and checks one file and gives it the texture of the options where it names none.
+// Recognises, parses and checks one file, and gives it the texture of the options where it names none.
 struct LoadedMesh {
     MeshFile mesh;
     MeshFormat format = MeshFormat::obj;
     std::uint64_t contentHash = 0;  // of the file's bytes
 };
+[[nodiscard]] Result<LoadedMesh> parseMesh(const MeshBytes& input, const ImportOptions& options, ImportReport& report);
 [[nodiscard]] Result<LoadedMesh> loadMesh(const std::filesystem::path& file, const ImportOptions& options,
                                           ImportReport& report);
 
 // What the rest of the import relies on: attributes as many as positions or none, indices and materials in
 // range, positions that a triangle uses finite and below kMaxCoordinate.
+[[nodiscard]] bool isUsablePosition(const glm::dvec3& p);
 [[nodiscard]] Result<void> checkMesh(const SourceMesh& mesh, const std::string& what);
 
 // Appends one polygon as triangles and counts it. Its corners are vertices of the mesh.

@@ -176,7 +176,8 @@ class ObjParser {
             const std::string_view number = word.substr(0, word.find('/'));
             if (part == 0 || !number.empty()) {
                 std::int64_t index = 0;
-                if (!toInteger(number, index)) return wrong(inQuotes(whole) + " is not a corner such as 1/2/3");
+                if (!toInteger(number, index))
+                    return wrong(inQuotes(whole) + " is not a corner such as 1/2/3");
                 // Negative: counted back from the last one so far.
                 const std::int64_t at =
                     index > 0 ? index - 1 : static_cast<std::int64_t>(counts[part]) + index;

@@ -156,8 +156,15 @@ class ObjReader {
         const bool laidOn = hasUv && face.material != ObjText::kAbsent && isLaidOn(layOn_[face.material]);
         const std::uint32_t number =
             numbers_.numberOf({corner.position, corner.uv, corner.normal, laidOn ? face.material + 1 : 0});
-        if (number == file_.block.mesh.positions.size())
+        if (number == file_.block.mesh.positions.size()) {
+            if (!isUsablePosition(text_.positions[corner.position])) {
+                return input_.failure(
+                    "line " + std::to_string(face.line),
+                    "the face refers to vertex " + std::to_string(corner.position + 1) +
+                        ", which has a coordinate that is not a finite number, or above 1e15");
+            }
             addVertex(corner, laidOn ? &layOn_[face.material] : nullptr);
+        }
         return number;
     }
 

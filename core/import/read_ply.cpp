@@ -131,6 +131,8 @@ class PlyReader {
         if (e.count > kMaxVertices) return input_.failure({}, "has more vertices than can be read");
         const bool hasNormals = nx != kNone && ny != kNone && nz != kNone, hasUvs = u != kNone && v != kNone;
         hasVertices_ = true;
+        vertexCount_ = e.count;
+        verticesHaveUvs_ = hasUvs;
         vertices_.positions.reserve(e.count);
         return forRows(e, [&](const PlyRow& row) -> Result<void> {
             const std::vector<double>& n = row.scalars;
@@ -197,8 +199,8 @@ class PlyReader {
     }
 
     [[nodiscard]] tl::unexpected<Error> wrongIndex(double index) const {
-        return input_.failure(body_.place(), "a face refers to vertex " + shown(index) + " of " +
-                                                 std::to_string(vertices_.positions.size()));
+        return input_.failure(
+            body_.place(), "a face refers to vertex " + shown(index) + " of " + std::to_string(vertexCount_));
     }
 
     static std::string shown(double index) {
@@ -209,7 +211,7 @@ class PlyReader {
     // One material for each texture that the header names.
     void addMaterials() {
         if (header_.textureFiles.empty()) return;
-        if (vertices_.uvs.empty() && faces_.uvs.empty()) {
+        if (!verticesHaveUvs_ && faces_.uvs.empty()) {
             report_.warnings.push_back(input_.file.filename().string() +
                                        " names a texture, but has no texture coordinates: it is not used");
             return;
@@ -229,7 +231,7 @@ class PlyReader {
 
     [[nodiscard]] std::uint32_t materialOf(std::size_t face) const {
         if (file_.block.materials.empty()) return kNoMaterial;
-        if (vertices_.uvs.empty() && !faces_.hasUvs[face]) return kNoMaterial;
+        if (!verticesHaveUvs_ && !faces_.hasUvs[face]) return kNoMaterial;
         if (faces_.textures.empty()) return 0;
         const std::int64_t texture = faces_.textures[face];
         const auto count = static_cast<std::int64_t>(file_.block.materials.size());
@@ -239,7 +241,7 @@ class PlyReader {
     Result<void> build() {
         SourceMesh& mesh = file_.block.mesh;
         for (const std::uint32_t corner : faces_.corners) {
-            if (corner >= vertices_.positions.size()) return wrongIndex(corner);
+            if (corner >= vertexCount_) return wrongIndex(corner);
         }
         if (faces_.uvs.empty() && faces_.colours.empty()) {
             mesh = std::move(vertices_);
@@ -306,11 +308,10 @@ class PlyReader {
 
     Result<void> addStrips() {
         SourceMesh& mesh = file_.block.mesh;
-        const std::size_t vertices = mesh.positions.size() - stripBase_;
         const bool textured = !file_.block.materials.empty() && mesh.hasUvs() && faces_.uvs.empty();
         for (const std::vector<std::int64_t>& strip : faces_.strips) {
             for (const std::int64_t index : strip) {
-                if (index >= static_cast<std::int64_t>(vertices))
+                if (static_cast<std::uint64_t>(index) >= vertexCount_)
                     return wrongIndex(static_cast<double>(index));
             }
             const std::size_t before = mesh.triangles.size();
@@ -331,8 +332,9 @@ class PlyReader {
     TexturesOfFile textures_;
     SourceMesh vertices_;
     Faces faces_;
+    std::uint64_t vertexCount_ = 0;
     std::size_t stripBase_ = 0;
-    bool hasVertices_ = false, hasFaces_ = false;
+    bool hasVertices_ = false, hasFaces_ = false, verticesHaveUvs_ = false;
 };
 
 }  // namespace
