@@ -94,6 +94,13 @@ TEST(ReduceLine, KeepsASpikeOfOneFrameAmongAHundredThousand) {
     EXPECT_TRUE(std::ranges::is_sorted(runs[0], {}, [](const glm::dvec2& p) { return p.x; }));
 }
 
+TEST(ReduceLine, KeepsFirstLeastMostAndLastOfAColumn) {
+    const std::vector<double> x = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 1.5};
+    const auto runs = reduceLine(x, std::vector<double>{5, 6, 9, 7, 1, 4, 3});
+    ASSERT_EQ(runs.size(), 1u);
+    EXPECT_EQ(runs[0], (std::vector<glm::dvec2>{{0.0, 5}, {0.2, 9}, {0.4, 1}, {0.5, 4}, {1.5, 3}}));
+}
+
 TEST(ReduceLine, LeavesAGapWhereTheValueIsNotFinite) {
     const auto runs = reduceLine(counting(6), std::vector<double>{kNan, 1, 2, kNan, 3, kNan});
     ASSERT_EQ(runs.size(), 2u);

@@ -56,7 +56,9 @@ TEST(WalkLine, KeepsItsHeadingOnAClimb) {
 
 TEST(WalkLine, TakesPointsThatAreGivenTwice) {
     const WalkLine line({{0, 0, 0}, {0, 0, 0}, {10, 0, 0}, {10, 0, 0}}, kYUp, 50.0, 2.0, 2.0);
+    EXPECT_LT(difference(line.placeAt(0.0), {0, 0, 0}), 1e-12);
     EXPECT_LT(difference(line.placeAt(5.0), {5, 0, 0}), 1e-12);
+    EXPECT_LT(difference(line.placeAt(10.0), {9.5, 0, 0}), 1e-12);
 }
 
 TEST(IsWalkable, AsksForALineOfSomeLength) {
