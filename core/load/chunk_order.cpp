@@ -44,17 +44,16 @@ StartedLoad& ChunkOrder::choose() {
 }
 
 bool ChunkOrder::isWished(NodeId node) const {
-    return std::any_of(wishes_.begin(), wishes_.end(),
+    return std::any_of(wishes_.begin() + static_cast<std::ptrdiff_t>(first_), wishes_.end(),
                        [node](const Wish& wish) { return wish.node == node; });
 }
 
 void ChunkOrder::finish(NodeId node) {
     std::erase_if(started_, [node](const StartedLoad& load) { return load.node == node; });
-    for (std::size_t i = first_; i < wishes_.size(); ++i) {
-        if (wishes_[i].node != node) continue;
-        wishes_[i].node = kNoNode;
-        if (current_ == i) current_ = kNone;
-    }
+    std::size_t i = first_;
+    while (wishes_[i].node != node) ++i;
+    wishes_[i].node = kNoNode;
+    if (current_ == i) current_ = kNone;
 }
 
 StartedLoad* ChunkOrder::findStarted(NodeId node) {

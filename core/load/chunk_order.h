@@ -29,7 +29,7 @@ class ChunkOrder {
     // The load to go on with or to start; hasWork() must hold. Valid until the next call of a member.
     [[nodiscard]] StartedLoad& choose();
     [[nodiscard]] bool isWished(NodeId node) const;
-    // The load is finished, well or not: it is neither wished for nor started any more.
+    // A load that is wished for is finished, well or not: it is neither wished for nor started any more.
     void finish(NodeId node);
 
     [[nodiscard]] const LoaderCounters& counters() const { return counters_; }
