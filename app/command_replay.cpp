@@ -140,8 +140,8 @@ ReplayReport describeWalk(const ReplayCommand& command, const Workbench& w, std:
     report.frames = std::move(records);
     report.loads = w.residency.counters;
     const LoaderCounters loader = w.loader->counters();
-    report.loads.suspended += loader.suspended;
-    report.loads.cancelled += loader.cancelled;
+    report.loads.suspended = loader.suspended;
+    report.loads.bytes = loader.bytesRead;
     report.budgetBytes = budgetBytes(w.settings.load);
     report.peakBytes = w.residency.peakBytes;
     for (const EffectRow& row : effectTable()) {

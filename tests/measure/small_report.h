@@ -20,7 +20,13 @@ inline ReplayReport smallReport() {
     report.levels = 3;
     report.budgetBytes = 100;
     report.peakBytes = 101;
-    report.loads = {7, 5, 2, 1, 3, 4096, 4};
+    report.loads = {.requested = 7,
+                    .completed = 5,
+                    .cancelled = 1,
+                    .failed = 4,
+                    .evicted = 3,
+                    .suspended = 2,
+                    .bytes = 4096};
     report.effects = {{"lighting", "auto", 2, 1.5}};
 
     FrameRecord a;

@@ -25,7 +25,7 @@ void expectOneLine(const ProgramRun& run, int exitCode, const std::string& part)
     EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
 }
 
-TEST(CommandLine, AnUnknownOptionIsWrongUsage) { expectOneLine(runProgram("replay --colour red"), 2, "--colour"); }
+TEST(CommandLine, AnUnknownOptionIsWrongUsage) { expectOneLine(runProgram("replay --out o --colour red"), 2, "--colour"); }
 
 TEST(CommandLine, ACommandWithoutItsArgumentsIsWrongUsage) { expectOneLine(runProgram("build"), 2, "INPUT"); }
 
