@@ -7,6 +7,7 @@
 #include "app/option_text.h"
 #include "app/progress_display.h"
 #include "build/build_scene.h"
+#include "build/hash_block.h"
 #include "import/city.h"
 #include "import/import_files.h"
 
@@ -116,10 +117,17 @@ std::filesystem::path builtInCityFolder() {
     return cache / "frontbench" / ("city-" FB_VERSION ".fbscene");
 }
 
+bool builtInCityIsThere() {
+    const Result<Scene> scene = openScene(builtInCityFolder());
+    if (!scene) return false;
+    const auto source = makeCity({});
+    return source && scene->info.sourceHash == (*source)->info().sourceHash &&
+           scene->info.buildSettingsHash == hashBuildSettings({});
+}
+
 Result<std::filesystem::path> builtInCity(ProgressStyle progress) {
     const std::filesystem::path folder = builtInCityFolder();
-    // A scene of this version that opens is taken; anything else is built again over it.
-    if (Result<Scene> scene = openScene(folder); scene) return folder;
+    if (builtInCityIsThere()) return folder;
     if (Result<void> made = makeFolder(folder.parent_path()); !made) return passOn(made);
     std::fprintf(stderr, "making the built-in city in %s (once)\n", folder.string().c_str());
     CityCommand command;

@@ -2,16 +2,16 @@
 #include <cstdio>
 #include <thread>
 
-#include "base/program_folder.h"
 #include "app/commands.h"
+#include "app/describe_walk.h"
 #include "app/frame.h"
 #include "app/guarded_child.h"
 #include "app/option_text.h"
 #include "app/save_picture.h"
 #include "base/clock.h"
+#include "base/program_folder.h"
 #include "draw/offscreen_context.h"
 #include "measure/camera_path.h"
-#include "measure/report.h"
 #include "settings/knob_table.h"
 #include "settings/preset.h"
 
@@ -79,7 +79,7 @@ FrameInput inputAt(const Replay& replay, double seconds) {
     FrameInput input;
     input.camera = replay.path.at(seconds);
     input.camera.fovyRadians = glm::radians(w.settings.draw.fovyDegrees);
-    input.camera.nearMetres = w.settings.draw.nearMetres;
+    input.camera.nearMetres = nearMetres(w);
     input.velocity = replay.path.velocityAt(seconds);
     input.dtSeconds = 1.0 / w.settings.model.rateHz;
     input.width = replay.size.x;
@@ -119,38 +119,6 @@ Result<void> walk(const ReplayCommand& command, Replay& replay) {
     return {};
 }
 
-std::string_view modeName(EffectMode mode) {
-    static constexpr std::string_view names[] = {"off", "on", "auto"};
-    return names[static_cast<std::size_t>(mode)];
-}
-
-ReplayReport describeWalk(const ReplayCommand& command, const Workbench& w, std::vector<FrameRecord> records) {
-    ReplayReport report;
-    report.version = FB_VERSION;
-    report.scene = w.scene->info.name;
-    report.preset = command.preset;
-    report.policy = policyOf(w.settings.select.policy).name;
-    report.path = command.path;
-    report.clock = command.clock;
-    report.device = w.clock == ClockKind::model ? "simulated" : w.renderer->deviceName();
-    report.sceneHash = w.scene->sceneHash;
-    report.settingsHash = settingsHash(w.settings);
-    report.targetMs = w.settings.control.targetMs;
-    report.levels = w.scene->hierarchy.maxLevel() + 1;
-    report.frames = std::move(records);
-    report.loads = w.residency.counters;
-    const LoaderCounters loader = w.loader->counters();
-    report.loads.suspended = loader.suspended;
-    report.loads.bytes = loader.bytesRead;
-    report.budgetBytes = budgetBytes(w.settings.load);
-    report.peakBytes = w.residency.peakBytes;
-    for (const EffectRow& row : effectTable()) {
-        report.effects.push_back({std::string(row.name), std::string(modeName(row.mode(w.settings.effects))),
-                                  w.effectFrames[static_cast<std::size_t>(row.effect)], 0.0});
-    }
-    return report;
-}
-
 }  // namespace
 
 Result<void> runReplay(const ReplayCommand& command) {
@@ -160,7 +128,7 @@ Result<void> runReplay(const ReplayCommand& command) {
     records.reserve(replay.frames);
     replay.workbench.onRecord = [&records](const FrameRecord& record) { records.push_back(record); };
     if (Result<void> walked = walk(command, replay); !walked) return walked;
-    const ReplayReport report = describeWalk(command, replay.workbench, std::move(records));
+    const ReplayReport report = describeWalk(replay.workbench, {command.preset, command.path}, std::move(records));
     if (Result<void> written = writeReport(report, command.out); !written) return written;
     std::printf("%s\n", (command.out / "summary.json").string().c_str());
     return {};

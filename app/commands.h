@@ -36,6 +36,8 @@ struct CityCommand {
 // The built-in city's folder in the user's cache; made there first when it is missing.
 [[nodiscard]] Result<std::filesystem::path> builtInCity(ProgressStyle progress);
 [[nodiscard]] std::filesystem::path builtInCityFolder();
+// Whether that folder holds the city that this program would make.
+[[nodiscard]] bool builtInCityIsThere();
 
 [[nodiscard]] Result<void> runInfo(const std::filesystem::path& scene, bool json);
 [[nodiscard]] Result<void> runCheck(const std::filesystem::path& scene, ProgressStyle progress);
@@ -65,8 +67,10 @@ struct OpenCommand {
     std::string preset = "default";
     std::vector<std::string> sets;
     std::string size = "1600x900";
-    std::filesystem::path screenshot;  // save the window there after `frames` frames and quit
-    std::uint64_t frames = 0;
+    std::string path;                  // plays from the start; empty: the user flies
+    std::filesystem::path screenshot;  // save the window there when it ends
+    std::filesystem::path out;         // write what was measured there when it ends, as replay does
+    std::uint64_t frames = 0;          // end after so many; 0: when the user closes the window
 };
 [[nodiscard]] Result<void> runWindow(const OpenCommand& command);
 

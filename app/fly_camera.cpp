@@ -40,7 +40,7 @@ bool fly(FlyCamera& c, const FlyInput& input, double dtSeconds) {
     const bool turned = input.look != glm::dvec2(0.0) || input.roll != 0.0;
     const bool dragged = input.orbit != glm::dvec2(0.0) || input.pan != glm::dvec2(0.0);
     if (input.look != glm::dvec2(0.0)) look(c, input.look);
-    if (input.roll != 0.0) turn(c.camera, -input.roll, c.camera.forward());
+    if (input.roll != 0.0) turn(c.camera, input.roll, c.camera.forward());
     if (input.orbit != glm::dvec2(0.0)) orbit(c, input.orbit);
     if (moved) {
         const double step = c.speedMetresPerSecond * dtSeconds;

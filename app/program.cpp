@@ -114,8 +114,10 @@ void addOpen(CLI::App& program, CommandLine& line) {
     program.add_option("--preset", o.preset, "A preset's name or .toml file");
     program.add_option("--set", o.sets, "Set a knob: NAME=VALUE");
     program.add_option("--size", o.size, "Size of the window, as in 1600x900");
-    program.add_option("--screenshot", o.screenshot, "Save the window as PNG after --frames frames, then quit");
-    program.add_option("--frames", o.frames, "Quit after this many frames");
+    program.add_option("--path", o.path, "Let this path move the camera at first: still walk drive fly walk-to-fly shake jump");
+    program.add_option("--frames", o.frames, "End after this many frames");
+    program.add_option("--screenshot", o.screenshot, "Save the window as PNG when it ends");
+    program.add_option("--out", o.out, "Write frames.csv, summary.json and plots of the session there when it ends");
 }
 
 int report(const Error& error) {

@@ -1,5 +1,6 @@
 #include "app/workbench.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/frame.h"
@@ -52,6 +53,11 @@ void restartWalk(Workbench& w) {
     w.frontHash = 0;
     w.effectFrames = {};
     for (FrameRecord& record : w.pending) record.frame = 0;
+}
+
+double nearMetres(const Workbench& w) {
+    const double knob = w.settings.draw.nearMetres;
+    return w.scene ? std::min(knob, w.scene->info.bounds.diagonal() / 2048.0) : knob;
 }
 
 void settle(Workbench& w, const FrameInput& input, double limitSeconds) {

@@ -66,6 +66,9 @@ void closeScene(Workbench& workbench);
 // Measures the fixed overhead and the start value of v_time by drawing (real clock) or from the simulated device.
 void calibrate(Workbench& workbench);
 
+// The camera's near plane: the knob's, or a small part of a small scene.
+[[nodiscard]] double nearMetres(const Workbench& workbench);
+
 // Forgets the walk so far (counters, history, front hash) and keeps what is loaded.
 void restartWalk(Workbench& workbench);
 

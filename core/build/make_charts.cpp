@@ -146,6 +146,13 @@ void joinRects(std::vector<TexelRect>& rects, const std::vector<Island>& islands
     }
 }
 
+TexelRect alignedToBlocks(const TexelRect& rect) {
+    const auto down = [](double at) { return std::floor(at / kMipBlock) * kMipBlock; };
+    const double x = down(rect.x), y = down(rect.y);
+    return {x, y, down(rect.x + rect.width + kMipBlock - 1.0) - x,
+            down(rect.y + rect.height + kMipBlock - 1.0) - y};
+}
+
 int scaledSide(double texels, double sharpTexels, double scale) {
     return std::max(1, static_cast<int>(std::lround(std::min(texels, sharpTexels) * scale)));
 }
@@ -172,9 +179,12 @@ ChartSet makeCharts(std::span<NodeTriangle> triangles, const BlockMesh& mesh, co
             chart.rect.x + chart.rect.width > size.x || chart.rect.y + chart.rect.height > size.y;
         chart.edge = repeats ? EdgeMode::repeat : EdgeMode::extend;
         const glm::dvec2 sharp = kSharpRepeats * size;
-        if (chart.rect.width > sharp.x || chart.rect.height > sharp.y) ++set.blurredRepeats;
-        chart.width = scaledSide(chart.rect.width, sharp.x, scale);
-        chart.height = scaledSide(chart.rect.height, sharp.y, scale);
+        const bool blurred = chart.rect.width > sharp.x || chart.rect.height > sharp.y;
+        if (blurred) ++set.blurredRepeats;
+        chart.aligned = scale == 1.0 && !blurred && std::min(chart.rect.width, chart.rect.height) >= kLeastAlignedSide;
+        if (chart.aligned) chart.rect = alignedToBlocks(chart.rect);
+        chart.width = chart.aligned ? static_cast<int>(chart.rect.width) : scaledSide(chart.rect.width, sharp.x, scale);
+        chart.height = chart.aligned ? static_cast<int>(chart.rect.height) : scaledSide(chart.rect.height, sharp.y, scale);
         chartOf[i] = static_cast<std::uint32_t>(set.charts.size());
         set.charts.push_back(std::move(chart));
     }

@@ -15,12 +15,17 @@ namespace fb {
 // mix charts.
 inline constexpr int kGutter = 2;
 
+// Charts that keep the source's texels begin and end on whole blocks of this many texels, in the texture and in the atlas:
+// their first mip levels are then those of the texture. Smaller ones would grow too much.
+inline constexpr int kMipBlock = 8, kLeastAlignedSide = 32;
+
 // A texture that repeats inside a chart is stored at full sharpness up to this many repeats per axis; beyond,
 // the chart is stored smaller.
 inline constexpr double kSharpRepeats = 8.0;
 
 struct Chart {
     bool baked = false;
+    bool aligned = false;       // to blocks of kMipBlock texels
     std::uint32_t surface = 0;  // of a chart that is not baked
     TexelRect rect;             // of its texture, whole texels
     EdgeMode edge = EdgeMode::extend;

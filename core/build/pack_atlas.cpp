@@ -13,6 +13,19 @@
 namespace fb {
 namespace {
 
+// The room that a chart takes with its gutters. Beside charts that are aligned, all take whole blocks: the packer then
+// places them at multiples of a block.
+struct Cells {
+    int block = 1;
+    explicit Cells(std::span<const Chart> charts) {
+        for (const Chart& chart : charts) block = chart.aligned ? kMipBlock : block;
+    }
+    // In an atlas with this side, beyond whose edges gutters may hang.
+    [[nodiscard]] int side(int texels, int atlas) const {
+        return std::min((texels + 2 * kGutter + block - 1) / block * block, atlas + 2 * kGutter);
+    }
+};
+
 // Every size of the classes that could hold the charts, smallest area first, then the squarest.
 std::vector<AtlasSize> candidates(std::span<const Chart> charts, int maxSide) {
     int width = 1, height = 1;
@@ -46,14 +59,16 @@ std::vector<AtlasSize> candidates(std::span<const Chart> charts, int maxSide) {
 
 bool packInto(std::span<Chart> charts, const AtlasSize& size, std::vector<stbrp_rect>& rects,
               std::vector<stbrp_node>& nodes) {
-    // Gutters may hang over the atlas's edge, hence the larger target and the shift by kGutter.
+    // Gutters may hang over the atlas's edge, hence the larger target; a cell's corner there is its chart's corner in
+    // the atlas.
+    const Cells cells(charts);
     const int width = size.width + 2 * kGutter, height = size.height + 2 * kGutter;
     rects.clear();
     for (std::size_t i = 0; i < charts.size(); ++i) {
         stbrp_rect rect{};
         rect.id = static_cast<int>(i);
-        rect.w = charts[i].width + 2 * kGutter;
-        rect.h = charts[i].height + 2 * kGutter;
+        rect.w = cells.side(charts[i].width, size.width);
+        rect.h = cells.side(charts[i].height, size.height);
         rects.push_back(rect);
     }
     nodes.resize(static_cast<std::size_t>(width));
@@ -66,7 +81,7 @@ bool packInto(std::span<Chart> charts, const AtlasSize& size, std::vector<stbrp_
     for (const stbrp_rect& rect : rects) places[{rect.w, rect.h}].emplace_back(-rect.y, -rect.x);
     for (auto& [sides, free] : places) std::sort(free.begin(), free.end());
     for (Chart& chart : charts) {
-        auto& free = places[{chart.width + 2 * kGutter, chart.height + 2 * kGutter}];
+        auto& free = places[{cells.side(chart.width, size.width), cells.side(chart.height, size.height)}];
         chart.x = -free.back().second;
         chart.y = -free.back().first;
         free.pop_back();

@@ -53,7 +53,7 @@ class Quantiser {
         std::vector<Surface>& surfaces = result_.mesh.surfaces;
         surfaces.push_back({});
         for (const SourceMaterial& material : block_.materials) {
-            Coating coating{0, glm::clamp(material.baseColour, 0.0f, 1.0f), material.alphaMask};
+            Coating coating{0, surfaceColour(&material, false), material.alphaMask};
             const auto texture = static_cast<std::size_t>(std::max(material.texture, 0));
             if (material.texture >= 0 && block_.mesh.hasUvs() && textures.textures[texture]) {
                 const bool masked = material.alphaMask && textures.textures[texture]->hasAlpha();
@@ -66,7 +66,7 @@ class Quantiser {
             }
             coatings_.push_back(coating);
         }
-        coatings_.push_back({});  // of kNoMaterial
+        coatings_.push_back({0, surfaceColour(nullptr, block_.mesh.hasColours()), false});  // of kNoMaterial
     }
 
     Coating coatingOf(std::size_t triangle, const glm::uvec3& corners) {

@@ -166,7 +166,9 @@ class MeshMaker {
                 ++carried;
                 for (FaceCorner& corner : face) {
                     mesh_.status(corner.place).set_locked(true);
-                    corner.place = mesh_.add_vertex(mesh_.point(corner.place));
+                    // A copy: the mesh's own point moves while the vertex is added.
+                    const OpenMesh::Vec3d point = mesh_.point(corner.place);
+                    corner.place = mesh_.add_vertex(point);
                     mesh_.status(corner.place).set_locked(true);
                 }
                 mesh_.add_face(face[0].place, face[1].place, face[2].place);

@@ -127,7 +127,7 @@ class SourceDrawer {
         if (glm::dot(faceNormal(mesh, t), glm::dvec3(normal)) < 0.0) std::swap(t.y, t.z);
         for (int c = 0; c < 3; ++c) {
             const std::uint32_t v = t[c];
-            glm::vec3 colour = material == nullptr ? glm::vec3(1.0f) : glm::vec3(material->baseColour);
+            glm::vec3 colour(surfaceColour(material, mesh.hasColours()));
             if (mesh.hasColours()) colour *= glm::vec3(mesh.colours[v]) / 255.0f;
             corners.push_back({glm::vec3(mesh.positions[v] - eye_), normals[v],
                                mesh.hasUvs() ? mesh.uvs[v] : glm::vec2(0.0f), colour});

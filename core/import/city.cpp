@@ -10,7 +10,7 @@
 namespace fb {
 namespace {
 
-constexpr std::uint64_t kGeneratorVersion = 1;  // raise it when the same options give another city
+constexpr std::uint64_t kGeneratorVersion = 3;  // raise it when the same options give another city
 
 constexpr std::uint64_t kMostBlocks = 10000;
 constexpr std::uint64_t kLeastTriangles = 1000, kMostTriangles = 2000000;  // a block

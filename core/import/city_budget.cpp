@@ -148,10 +148,11 @@ std::vector<double> sharesOf(const CityPlan& plan, std::uint64_t part) {
     return shares;
 }
 
+// Sides in multiples of 8 where that is little: three mip levels without a remainder, as pictures from cameras have.
 PictureSize pictureSize(double width, double height, double texelsPerMetre) {
     const auto side = [&](double metres) {
-        return static_cast<int>(
-            std::clamp(metres * texelsPerMetre + 0.5, 1.0 * kLeastSide, 1.0 * kLargestSide));
+        const double texels = std::clamp(metres * texelsPerMetre, 1.0 * kLeastSide, 1.0 * kLargestSide);
+        return static_cast<int>(texels < 64.0 ? texels + 0.5 : 8.0 * std::floor(texels / 8.0 + 0.5));
     };
     return {side(width), side(height)};
 }

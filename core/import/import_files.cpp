@@ -7,6 +7,7 @@
 #include "base/file_io.h"
 #include "base/hash.h"
 #include "import/clean_mesh.h"
+#include "import/guess_up.h"
 #include "import/import_limits.h"
 #include "import/mesh_file.h"
 #include "import/split_blocks.h"
@@ -139,7 +140,6 @@ class Import {
         ImportReport report;
         Result<LoadedMesh> loaded = loadMesh(path, options_, report);
         if (!loaded) return passOn(loaded);
-        chooseUp(loaded->format, path);
         hasher_.number(static_cast<std::uint64_t>(loaded->format)).number(loaded->contentHash);
         info_.files.push_back(path);
         for (const std::filesystem::path& other : loaded->mesh.otherFiles) {
@@ -158,21 +158,34 @@ class Import {
         if (!loaded->mesh.groups.empty()) {
             for (const std::uint32_t triangle : kept) file.groups.push_back(loaded->mesh.groups[triangle]);
         }
+        chooseUp(loaded->format, path, file.block.mesh);
         for (const glm::dvec3& p : file.block.mesh.positions) bounds_.grow(p);
         info_.report.add(report);
         cleaned_.push_back(std::move(file));
         return {};
     }
 
-    // One scene has one up axis: the option's, or the one that is usual for the first file's format.
-    void chooseUp(MeshFormat format, const std::filesystem::path& path) {
+    // One scene has one up axis: the option's, or the first file's: as its format says (glTF), as its surface shows,
+    // or as is usual for its format.
+    void chooseUp(MeshFormat format, const std::filesystem::path& path, const SourceMesh& mesh) {
         const UpAxis usual = format == MeshFormat::stl ? UpAxis::z : UpAxis::y;
-        if (cleaned_.empty()) {
-            info_.up = options_.up.value_or(usual);
-        } else if (!options_.up && usual != info_.up) {
-            info_.report.warnings.push_back(path.filename().string() +
-                                            " usually has another axis upward than " +
+        const std::string name = path.filename().string();
+        if (options_.up) {
+            info_.up = *options_.up;
+        } else if (!cleaned_.empty()) {
+            if (usual == usualUp_) return;
+            info_.report.warnings.push_back(name + " usually has another axis upward than " +
                                             files_.front().filename().string() + ": nothing is turned");
+        } else {
+            usualUp_ = info_.up = usual;
+            if (format == MeshFormat::gltf || format == MeshFormat::glb) return;
+            const std::optional<UpGuess> guess = guessUp(mesh);
+            if (!guess || guess->up == usual) return;
+            info_.up = guess->up;
+            const bool isZ = info_.up == UpAxis::z;
+            info_.report.warnings.push_back(name + ": " + (isZ ? "z" : "y") + " is taken as up, because " +
+                                            std::string(guess->reason) + " (--up " + (isZ ? "y" : "z") +
+                                            " for the other)");
         }
     }
 
@@ -181,6 +194,7 @@ class Import {
     const Progress& progress_;
     Hasher hasher_;
     SourceInfo info_;
+    UpAxis usualUp_ = UpAxis::y;  // for the first file's format
     Box3d bounds_;
     std::vector<CleanFile> cleaned_;
 };

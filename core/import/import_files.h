@@ -16,7 +16,7 @@ namespace fb {
 enum class BlockSplit : std::uint8_t { automatic, none, grid, groups };
 
 struct ImportOptions {
-    std::optional<UpAxis> up;                     // default: z for STL, y for the others
+    std::optional<UpAxis> up;                     // default: read off the first file (guess_up.h), else z for STL, y
     BlockSplit split = BlockSplit::automatic;
     std::uint64_t trianglesPerBlock = 40000;      // aim of the ground grid
     std::optional<std::filesystem::path> texture; // for files with texture coordinates that name no texture

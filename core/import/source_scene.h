@@ -43,6 +43,12 @@ struct SourceMaterial {
 };
 
 inline constexpr std::uint32_t kNoMaterial = ~std::uint32_t{0};
+// What a surface is tinted with: its material's colour; where it has none, white under vertex colours, and else a light
+// grey, since on white no shading would show.
+[[nodiscard]] inline glm::vec4 surfaceColour(const SourceMaterial* material, bool hasVertexColours) {
+    if (material != nullptr) return glm::clamp(material->baseColour, 0.0f, 1.0f);
+    return glm::vec4(glm::vec3(hasVertexColours ? 1.0f : 0.8f), 1.0f);
+}
 
 // Triangles over shared vertices. A vertex is one combination of position, normal, texture coordinate and colour:
 // two vertices at exactly one position are a seam, not a gap. Vectors of attributes are empty or of the same length

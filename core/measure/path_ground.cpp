@@ -11,6 +11,7 @@ namespace {
 // A walk is this many times the path's length in time: drive covers ten walks.
 constexpr double kReachSeconds = 10.0 * kBuiltInPathSeconds;
 constexpr double kMinimumHintMetres = 1.0;
+constexpr double kMargin = 0.3;  // of the diagonal: how far from the bounds a walk without a hint stays
 
 // A nanometre to a tenth of what a path file may hold.
 constexpr double kSmallestMetres = 1e-9, kFarthestMetres = kPathCoordinateCap / 10.0;
@@ -28,7 +29,7 @@ double extentAlong(const Box3d& box, const glm::dvec3& axis) {
 // A rectangle around the bounds at the height of the walker's eyes, from the middle of the front side round
 // and back. The front is +z where y is up and -y where z is up: where models look to.
 std::vector<glm::dvec3> wayAround(const Box3d& box, const GroundAxes& axes) {
-    const double margin = 0.2 * box.diagonal(), height = extentAlong(box, axes.up);
+    const double margin = kMargin * box.diagonal(), height = extentAlong(box, axes.up);
     const double a = extentAlong(box, axes.along) / 2.0 + margin,
                  b = extentAlong(box, axes.across) / 2.0 + margin;
     // Flat scenes are seen from above their top, obliquely.
@@ -39,7 +40,7 @@ std::vector<glm::dvec3> wayAround(const Box3d& box, const GroundAxes& axes) {
 }
 
 double aroundLength(const Box3d& box, const GroundAxes& axes) {
-    const double margin = 0.2 * box.diagonal();
+    const double margin = kMargin * box.diagonal();
     return 2.0 * (extentAlong(box, axes.along) + extentAlong(box, axes.across) + 4.0 * margin);
 }
 
@@ -99,8 +100,8 @@ WalkView walkViewAt(const PathGround& ground, double metres, double headTurns) {
 Camera flyCameraAt(const PathGround& ground, double fraction) {
     const double wave = circlePoint(2.0 * fraction).x;  // 1 far, -1 close
     const glm::dvec2 round = circlePoint(fraction - 0.25);
-    const double out = ground.diagonalMetres * (0.68 + 0.42 * wave);
-    const double above = ground.heightMetres / 2.0 + ground.diagonalMetres * (0.45 + 0.2 * wave);
+    const double out = ground.diagonalMetres * (0.52 + 0.28 * wave);
+    const double above = ground.heightMetres / 2.0 + ground.diagonalMetres * (0.33 + 0.15 * wave);
     const glm::dvec3 offset =
         (ground.axes.along * round.x + ground.axes.across * round.y) * out + ground.axes.up * above;
     Camera camera = lookAt(offset, glm::dvec3(0.0), ground.axes.up);

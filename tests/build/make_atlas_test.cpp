@@ -137,8 +137,36 @@ TEST(MakeAtlas, JoinsChartsThatOverlapInTheTexture) {
     World world(blockOf(mesh, paintImage(64, 64, everyTexelItsOwn)));
     const ChartSet set = makeCharts(world.triangles, world.mesh, world.textures, 1.0);
     ASSERT_EQ(set.charts.size(), 1u);
-    EXPECT_EQ(set.charts[0].rect.width, 34.0);
+    EXPECT_EQ(set.charts[0].rect.width, 40.0);  // 34 in whole blocks
     EXPECT_EQ(set.charts[0].rect.height, 32.0);
+}
+
+// Charts at odd places of a noisy picture: each block of 8 x 8 texels of the picture under a chart is a block of the
+// atlas, so the first three mip levels are the picture's own.
+TEST(MakeAtlas, KeepsTheMipBlocksOfTheSource) {
+    SourceMesh mesh;
+    for (int i = 0; i < 5; ++i) {
+        const SourceMesh sheet = makeSheet({1, 1, 1.0, 1.0, {}});
+        const glm::vec2 at(static_cast<float>(101 * i + 3), static_cast<float>(97 * i + 5)), size(static_cast<float>(45 + i), static_cast<float>(61 - i));
+        for (std::size_t v = 0; v < 4; ++v) {
+            mesh.positions.push_back(sheet.positions[v] + glm::dvec3(2 * i, 0, 0));
+            mesh.uvs.push_back((at + sheet.uvs[v] * size) / 512.0f);
+        }
+        for (const glm::uvec3& t : sheet.triangles) mesh.triangles.push_back(t + static_cast<std::uint32_t>(4 * i));
+    }
+    World world(blockOf(mesh, paintImage(512, 512, everyTexelItsOwn)));
+    ChartSet set = makeCharts(world.triangles, world.mesh, world.textures, 1.0);
+    ASSERT_EQ(set.charts.size(), 5u);
+    AtlasSize size;
+    ASSERT_TRUE(packAtlas(set.charts, 4096, size));
+    for (const Chart& chart : set.charts) {
+        EXPECT_TRUE(chart.aligned);
+        for (const int side : {chart.x, chart.y, static_cast<int>(chart.rect.x), static_cast<int>(chart.rect.y),
+                               chart.width, chart.height}) {
+            EXPECT_EQ(side % kMipBlock, 0);
+        }
+    }
+    EXPECT_FALSE(makeCharts(world.triangles, world.mesh, world.textures, 0.5).charts[0].aligned);
 }
 
 TEST(MakeAtlas, StoresRepeatsAndBlursThemWhenThereAreMany) {
@@ -236,6 +264,7 @@ RC_GTEST_PROP(PackAtlas, KeepsChartsApartInsideAnAtlasOfTheClasses, (std::uint64
     for (Chart& chart : charts) {
         chart.width = 1 + static_cast<int>(random.index(40));
         chart.height = 1 + static_cast<int>(random.index(random.index(5) == 0 ? 120 : 20));
+        chart.aligned = random.index(3) == 0;
     }
     AtlasSize size;
     RC_ASSERT(packAtlas(charts, 1024, size));

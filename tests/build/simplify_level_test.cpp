@@ -157,13 +157,17 @@ TEST_P(BothSimplifiers, LetThePiecesOfALevelMeetExactly) {
 TEST_P(BothSimplifiers, CoarsenCutsTogetherWithWhatSurroundsThem) {
     World world(makeSheet({160, 160, 1.0, 1.0, bumps}));  // 51200 triangles
     world.split(2);
-    const std::vector<SimplifiedPiece> pieces = world.simplify(256.0, GetParam());  // aims of about 101
+    const std::vector<SimplifiedPiece> pieces = world.simplify(256.0, GetParam());
+    std::size_t total = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        EXPECT_LE(pieces[i].triangles.size(), 102u);
+        total += pieces[i].triangles.size();
         // 161 vertices lie on the cut; locked one by one they alone would take more triangles than the aim.
         EXPECT_FALSE(pieces[i].stuck);
         EXPECT_FALSE(pieces[i].welded);
     }
+    // The pieces share the level's triangles by the detail that they hold. 51200 / 256 = 200, and 2 % more.
+    EXPECT_LE(total, 204u);
+    EXPECT_GE(total, 150u);
 }
 
 TEST_P(BothSimplifiers, NeverLeaveAPieceWithoutTriangles) {
