@@ -7,6 +7,7 @@
 
 #include "app/describe_walk.h"
 #include "app/frame.h"
+#include "app/guarded_child.h"
 #include "app/session.h"
 #include "base/clock.h"
 
@@ -14,13 +15,17 @@ namespace fb {
 namespace {
 
 void pressKeys(Session& s) {
+    const std::vector<Window::KeyPress> keys = s.window->takeKeys();
     if (ImGui::GetIO().WantTextInput) return;
-    if (ImGui::IsKeyPressed(GLFW_KEY_TAB, false)) s.ui.hidden = !s.ui.hidden;
-    if (ImGui::IsKeyPressed(GLFW_KEY_HOME, false) && s.workbench.scene) {
-        s.path.reset();
-        frameBounds(s.fly, s.workbench.scene->info.bounds);
+    for (const Window::KeyPress& press : keys) {
+        if (press.key == GLFW_KEY_TAB) s.ui.hidden = !s.ui.hidden;
+        if (press.key == GLFW_KEY_HOME && s.workbench.scene) {
+            s.path.reset();
+            frameBounds(s.fly, s.workbench.scene->info.bounds);
+        }
+        if (press.key == GLFW_KEY_F12) s.requests.saveScreenshot = true;
+        if (press.key == GLFW_KEY_Q && (press.modifiers & GLFW_MOD_CONTROL)) s.quit = true;
     }
-    if (ImGui::IsKeyPressed(GLFW_KEY_F12, false)) s.requests.saveScreenshot = true;
 }
 
 void moveCamera(Session& s, double dtSeconds) {
@@ -76,7 +81,7 @@ void runUi(Session& s) {
 
 // With --frames the window ends by itself: once so many frames have shown the scene, or when nothing could be opened.
 bool isOver(const OpenCommand& command, const Session& s, std::uint64_t shown) {
-    if (s.window->shouldClose()) return true;
+    if (s.window->shouldClose() || s.quit || stopWanted()) return true;
     if (command.frames == 0) return false;
     return shown >= command.frames || (!s.workbench.scene && !s.child.running());
 }
@@ -97,6 +102,7 @@ Result<void> finish(const OpenCommand& command, Session& s) {
 Result<void> runWindow(const OpenCommand& command) {
     Session s;
     if (Result<void> opened = openSession(command, s); !opened) return opened;
+    watchForStop();
     std::uint64_t shown = 0;  // frames with a scene
     while (!isOver(command, s, shown)) {
         const double dt = s.window->beginFrame();

@@ -38,6 +38,7 @@ struct Session {
     bool messageIsError = false;
     std::uint32_t errors = 0;
     std::string device;
+    bool quit = false;
     std::vector<FrameRecord> records;  // of the open scene, when a report was asked for
 };
 

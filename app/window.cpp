@@ -53,6 +53,11 @@ Result<std::unique_ptr<Window>> Window::open(glm::ivec2 size, const char* title)
         auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
         self->dropped_.assign(paths, paths + count);
     });
+    // Before Dear ImGui's own, which call these on.
+    glfwSetKeyCallback(window->window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+        auto* self = static_cast<Window*>(glfwGetWindowUserPointer(w));
+        if (action == GLFW_PRESS) self->keys_.push_back({key, modifiers});
+    });
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the workbench keeps its own session
     const float scale = contentScale(window->window_);
@@ -159,6 +164,8 @@ FlyInput Window::readFlyInput(bool viewHovered, double dtSeconds) {
     input.roll = (key(GLFW_KEY_T) - key(GLFW_KEY_R)) * kRollRadiansPerSecond * dtSeconds;
     return input;
 }
+
+std::vector<Window::KeyPress> Window::takeKeys() { return std::exchange(keys_, {}); }
 
 std::vector<std::filesystem::path> Window::takeDropped() { return std::exchange(dropped_, {}); }
 

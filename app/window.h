@@ -33,6 +33,12 @@ class Window {
     // Keys and mouse for the camera: the right or middle button, or Alt with the left one, must be pressed over the view.
     [[nodiscard]] FlyInput readFlyInput(bool viewHovered, double dtSeconds);
     [[nodiscard]] std::vector<std::filesystem::path> takeDropped();
+    // Keys (GLFW_KEY_*) pressed since the last call with their modifiers, however short: what Dear ImGui 1.86 polls once a
+    // frame misses a key that is pressed and released between two frames.
+    struct KeyPress {
+        int key = 0, modifiers = 0;
+    };
+    [[nodiscard]] std::vector<KeyPress> takeKeys();
 
   private:
     Window() = default;
@@ -40,6 +46,7 @@ class Window {
 
     GLFWwindow* window_ = nullptr;
     std::vector<std::filesystem::path> dropped_;
+    std::vector<KeyPress> keys_;
     double lastSeconds_ = 0.0;
     glm::dvec2 lastMouse_{0.0};
     int grabbedButton_ = -1;

@@ -53,10 +53,12 @@ bool editNumber(const Knob& knob, double& value) {
     }
     std::snprintf(format, sizeof format, "%%.4g%s", escaped.c_str());
     // Ranges allow for the unusual; the slider covers what is usual, typing reaches the rest.
-    const double low = knob.low;
-    const double high = wide ? knob.high : std::min(knob.high, std::max(10.0 * std::abs(knob.initial), low + 1.0));
+    const double usual = std::abs(knob.initial);
+    const double low = wide ? std::max(knob.low, usual / 20.0) : knob.low;
+    const double high = std::min(knob.high, wide ? 20.0 * usual : std::max(10.0 * usual, low + 1.0));
+    const bool whole = low == knob.low && high == knob.high;
     return ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format,
-                               flags & ~static_cast<int>(high < knob.high ? ImGuiSliderFlags_AlwaysClamp : 0));
+                               flags & ~static_cast<int>(whole ? 0 : ImGuiSliderFlags_AlwaysClamp));
 }
 
 bool editChoice(const Knob& knob, double& value) {

@@ -79,9 +79,10 @@ void fitValues(PlotArea& area, const History& history, std::span<const PlotSerie
     }
 }
 
-void drawLegend(const PlotArea& area, std::span<const PlotSeries> series) {
+// To the right of the unit, which drawAxes writes into the same line.
+void drawLegend(const PlotArea& area, std::span<const PlotSeries> series, std::string_view unit) {
     ImDrawList* list = ImGui::GetWindowDrawList();
-    float x = area.low.x + 2.5f * ImGui::GetFontSize();
+    float x = area.low.x + ImGui::CalcTextSize(unit.data(), unit.data() + unit.size()).x + ImGui::GetFontSize();
     for (const PlotSeries& s : series) {
         const ImVec2 size = ImGui::CalcTextSize(s.label.data(), s.label.data() + s.label.size());
         list->AddRectFilled(ImVec2(x, area.low.y + 4.0f), ImVec2(x + 10.0f, area.low.y + 8.0f), colourOf(s.colour));
@@ -118,7 +119,7 @@ void plotLines(const char* id, const History& history, std::span<const PlotSerie
     for (const PlotSeries& s : series) drawSeries(area, history, s);
     list->PopClipRect();
     drawHoverLine(area, history);
-    drawLegend(area, series);
+    drawLegend(area, series, options.unit);
     if (area.hovered) tooltip(history[area.hoveredFrame], series, options.unit);
 }
 

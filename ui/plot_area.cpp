@@ -30,7 +30,7 @@ std::size_t firstFrameAt(const History& history, double seconds) {
 void label(float x, float y, double value, double step) {
     char text[32];
     const int digits = step >= 1.0 ? 0 : std::min(6, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    std::snprintf(text, sizeof text, "%.*f", digits, value + 0.0);  // never -0
     ImGui::GetWindowDrawList()->AddText(ImVec2(x, y), ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
 }
 
@@ -50,7 +50,7 @@ void drawTicksY(const PlotArea& area, ImU32 grid) {
         return;
     }
     const double step = tickStep(area.lowValue, area.highValue, kTicksY);
-    for (double i = std::ceil(area.lowValue / step - 1e-9); i * step <= area.highValue * (1.0 + 1e-9); i += 1.0) {
+    for (double i = std::ceil(area.lowValue / step - 1e-9) + 0.0; i * step <= area.highValue * (1.0 + 1e-9); i += 1.0) {
         tick(i * step, step);
     }
 }

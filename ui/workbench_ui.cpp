@@ -22,9 +22,15 @@ void splitter(const char* id, ImGuiAxis axis, ImVec2 from, ImVec2 to, float leng
     if (length > 2.0f * kSmallestPane) share = std::clamp(after / length, 0.05f, 0.9f);
 }
 
-bool beginPane(const char* name, ImVec2 position, ImVec2 size) {
+// The view reaches its pane's edges; text keeps a margin.
+bool beginPane(const char* name, ImVec2 position, ImVec2 size, bool margin = true) {
     ImGui::SetCursorScreenPos(position);
-    return ImGui::BeginChild(name, size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
+    if (!margin) return ImGui::BeginChild(name, size, false, flags);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(6.0f, 3.0f));
+    const bool shown = ImGui::BeginChild(name, size, false, flags | ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleVar();
+    return shown;
 }
 
 void drawRightColumn(const UiInput& input, UiState& state, UiRequests& requests) {
@@ -58,7 +64,7 @@ void drawTiles(const UiInput& input, UiState& state, UiRequests& requests, ImVec
     const float bottomHeight = state.bottomShare * size.y;
     const float topHeight = size.y - bottomHeight - kSplitter;
 
-    if (beginPane("view", position, ImVec2(leftWidth, topHeight))) drawViewPanel(input, state, requests);
+    if (beginPane("view", position, ImVec2(leftWidth, topHeight), false)) drawViewPanel(input, state, requests);
     ImGui::EndChild();
     const ImVec2 lineY(position.x, position.y + topHeight);
     splitter("view|plots", ImGuiAxis_Y, lineY, ImVec2(lineY.x + leftWidth, lineY.y + kSplitter), size.y,
@@ -87,12 +93,12 @@ void drawWorkbenchUi(const UiInput& input, UiState& state, UiRequests& requests)
     const float barHeight = ImGui::GetFrameHeight();
     const ImVec2 tiles(io.DisplaySize.x, std::max(io.DisplaySize.y - barHeight, 1.0f));
     if (state.hidden) {
-        if (beginPane("view", ImVec2(0.0f, 0.0f), tiles)) drawViewPanel(input, state, requests);
+        if (beginPane("view", ImVec2(0.0f, 0.0f), tiles, false)) drawViewPanel(input, state, requests);
         ImGui::EndChild();
     } else {
         drawTiles(input, state, requests, ImVec2(0.0f, 0.0f), tiles);
     }
-    if (beginPane("status", ImVec2(0.0f, tiles.y), ImVec2(tiles.x, barHeight))) drawStatusBar(input);
+    if (beginPane("status", ImVec2(0.0f, tiles.y), ImVec2(tiles.x, barHeight), false)) drawStatusBar(input);
     ImGui::EndChild();
     ImGui::End();
 }

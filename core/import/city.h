@@ -12,9 +12,9 @@
 namespace fb {
 
 struct CityOptions {
-    std::uint64_t blocks = 16;
-    std::uint64_t triangles = 480000;    // of the whole city; met within 5 %
-    std::uint64_t texels = 24000000;     // of the whole city; met within 10 %
+    std::uint64_t blocks = 36;
+    std::uint64_t triangles = 1600000;   // of the whole city; met within 5 %
+    std::uint64_t texels = 80000000;     // of the whole city; met within 10 %
     std::uint64_t seed = 1;
 };
 

@@ -69,8 +69,8 @@ WalkView risingView(const PathGround& ground, const WalkView& last, double t) {
 
     WalkView view = walkViewAt(ground, walked * ground.metresPerSecond, 1.0 - rise);
     const glm::dvec2 yaw = circlePoint(last.yawTurns);
-    const glm::dvec3 back = (ground.axes.along * yaw.x + ground.axes.across * yaw.y) * (-0.75 * size);
-    const double endHeight = ground.heightMetres / 2.0 + 0.5 * size;  // above the centre
+    const glm::dvec3 back = (ground.axes.along * yaw.x + ground.axes.across * yaw.y) * (-0.62 * size);
+    const double endHeight = ground.heightMetres / 2.0 + 0.45 * size;  // above the centre
     const double startHeight = glm::dot(view.eye - ground.centre, ground.axes.up);
     const glm::dvec3 start = view.eye - ground.centre - ground.axes.up * startHeight;
     const double height = startHeight + (endHeight - startHeight) * rise;
