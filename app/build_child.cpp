@@ -88,6 +88,10 @@ std::optional<Result<void>> BuildChild::poll() {
     readPipe();  // what it wrote between the two calls above
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return Result<void>{};
     if (!error_.empty()) return failure({}, {}, error_);
+    if (WIFSIGNALED(status)) {
+        return failure({}, {}, std::string("the build died: ") + ::strsignal(WTERMSIG(status)),
+                       "what is finished is kept; opening the same files again goes on from there");
+    }
     return failure({}, {}, "the build ended without a word", "run `frontbench build` in a terminal to see more");
 }
 

@@ -27,7 +27,7 @@ void showScene(Session& s, const std::filesystem::path& folder) {
     // A scene with streets is entered at the start of its walk.
     if (Result<CameraPath> still = loadPath("still", s.workbench.scene->info); still) s.fly.camera = still->at(0.0);
     playPath(s, s.firstPath);
-    if (!s.messageIsError) say(s, folder.string());
+    if (!s.messageIsError) say(s, folder.filename().string());
 }
 
 void startChild(Session& s, std::vector<std::string> arguments, std::string title, std::filesystem::path output) {

@@ -33,7 +33,7 @@ void drawLegend(const UiInput& input, ImVec2 corner) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const int levels = input.scene->hierarchy.maxLevel() + 1;
-    const float width = 7.0f * ImGui::GetFontSize();
+    const float width = ImGui::CalcTextSize("level 00 (coarse)").x + 34.0f;
     const ImVec2 end(corner.x + width, corner.y + line * static_cast<float>(levels) + 8.0f);
     list->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_PopupBg), 4.0f);
     for (int level = 0; level < levels; ++level) {

@@ -39,7 +39,7 @@ void drawStatusBar(const UiInput& input) {
     ImGui::TextDisabled("| %.*s |", static_cast<int>(input.device.size()), input.device.data());
     ImGui::SameLine();
     if (input.errorCount > 0) {
-        ImGui::TextColored(ImVec4(0.95f, 0.4f, 0.3f, 1.0f), "%u errors", input.errorCount);
+        ImGui::TextColored(ImVec4(0.95f, 0.4f, 0.3f, 1.0f), "%u error%s", input.errorCount, input.errorCount == 1 ? "" : "s");
     } else {
         ImGui::TextDisabled("no errors");
     }

@@ -65,7 +65,9 @@ WalkView risingView(const PathGround& ground, const WalkView& last, double t) {
     const double size = ground.diagonalMetres;
     const double stopping = std::min(12.0, std::max(0.0, t - 8.0));
     const double walked = std::min(t, 8.0) + stopping - stopping * stopping / 24.0;
-    const double rise = smoothStep(8.0, 20.0, t), retreat = smoothStep(16.0, 30.0, t);
+    // Low scenes are cleared sooner.
+    const double clear = ground.heightMetres < 0.25 * size ? 13.0 : 16.0;
+    const double rise = smoothStep(8.0, 20.0, t), retreat = smoothStep(clear, clear + 14.0, t);
 
     WalkView view = walkViewAt(ground, walked * ground.metresPerSecond, 1.0 - rise);
     const glm::dvec2 yaw = circlePoint(last.yawTurns);
