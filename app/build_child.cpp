@@ -20,6 +20,9 @@ namespace fb {
 BuildChild::~BuildChild() {
     if (child_ > 0) {
         ::kill(child_, SIGTERM);
+        // It gives its own child a second.
+        for (int tries = 0; tries < 60 && ::waitpid(child_, nullptr, WNOHANG) == 0; ++tries) ::usleep(50'000);
+        ::kill(child_, SIGKILL);
         ::waitpid(child_, nullptr, 0);
     }
     if (pipe_ >= 0) ::close(pipe_);
@@ -28,7 +31,8 @@ BuildChild::~BuildChild() {
 Result<void> BuildChild::start(const std::vector<std::string>& arguments) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return failure({}, {}, std::string("no pipe: ") + std::strerror(errno));
-    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+    std::error_code unreadable;
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe", unreadable).string();
     std::vector<std::string> texts = {program};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
     texts.insert(texts.end(), {"--progress", "lines"});

@@ -87,6 +87,7 @@ bool isOver(const OpenCommand& command, const Session& s, std::uint64_t shown) {
 }
 
 Result<void> finish(const OpenCommand& command, Session& s) {
+    s.faults.flush();
     if (!s.workbench.scene) return command.frames > 0 ? failure({}, {}, s.message) : Result<void>();
     if (!command.screenshot.empty()) {
         if (Result<void> saved = s.window->saveScreenshot(command.screenshot); !saved) return saved;
@@ -108,6 +109,7 @@ Result<void> runWindow(const OpenCommand& command) {
         const double dt = s.window->beginFrame();
         pollChild(s);
         const std::vector<std::filesystem::path> dropped = s.window->takeDropped();
+        if (!dropped.empty() && s.child.running()) say(s, "a build is running: drop the files again when it has ended");
         if (!dropped.empty() && !s.child.running()) openInputs(s, dropped);
         moveCamera(s, dt);
         runSceneFrame(s, dt);

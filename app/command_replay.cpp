@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/describe_walk.h"
+#include "app/fault_log.h"
 #include "app/frame.h"
 #include "app/guarded_child.h"
 #include "app/option_text.h"
@@ -25,6 +26,7 @@ struct Replay {
     std::unique_ptr<OffscreenContext> context;
     Workbench workbench;
     CameraPath path;
+    FaultLog faults{[](const Error& fault) { std::fprintf(stderr, "frontbench: %s\n", fault.oneLine().c_str()); }};
     glm::ivec2 size{1280, 720};
     std::uint64_t frames = 0;
 };
@@ -45,7 +47,7 @@ Result<void> prepare(const ReplayCommand& command, Replay& replay) {
         return usageFailure("--clock " + command.clock, "is not a clock", "real or model");
     }
     w.clock = command.clock == "real" ? ClockKind::real : ClockKind::model;
-    w.onFault = [](const Error& fault) { std::fprintf(stderr, "frontbench: %s\n", fault.oneLine().c_str()); };
+    w.onFault = [&replay](const Error& fault) { replay.faults.hear(fault); };
     Result<glm::ivec2> size = parseSize(command.size);
     if (!size) return passOn(size);
     replay.size = *size;
@@ -93,11 +95,6 @@ bool isPictured(std::uint64_t i, std::uint64_t frames, std::uint64_t pictures) {
     return (i + 1) * pictures / frames != i * pictures / frames;
 }
 
-void pace(SteadyClock::time_point start, double seconds) {
-    std::this_thread::sleep_until(
-        start + std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds)));
-}
-
 Result<void> walk(const ReplayCommand& command, Replay& replay) {
     Workbench& w = replay.workbench;
     const double stepSeconds = 1.0 / w.settings.model.rateHz;
@@ -113,9 +110,10 @@ Result<void> walk(const ReplayCommand& command, Replay& replay) {
             if (Result<void> saved = savePicture(w.renderer->readPicture(), command.out / name); !saved) return saved;
         }
         // The loader lives in real time: the walk must not outrun it.
-        if (w.clock == ClockKind::real) pace(start, static_cast<double>(i + 1) * stepSeconds);
+        if (w.clock == ClockKind::real) sleepUntil(start, static_cast<double>(i + 1) * stepSeconds);
     }
     waitForTimes(w);
+    replay.faults.flush();
     return {};
 }
 
@@ -125,7 +123,7 @@ Result<void> runReplay(const ReplayCommand& command) {
     Replay replay;
     if (Result<void> ready = prepare(command, replay); !ready) return ready;
     std::vector<FrameRecord> records;
-    records.reserve(replay.frames);
+    records.reserve(std::min<std::uint64_t>(replay.frames, 100000));
     replay.workbench.onRecord = [&records](const FrameRecord& record) { records.push_back(record); };
     if (Result<void> walked = walk(command, replay); !walked) return walked;
     const ReplayReport report = describeWalk(replay.workbench, {command.preset, command.path}, std::move(records));

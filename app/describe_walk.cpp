@@ -28,8 +28,8 @@ ReplayReport describeWalk(const Workbench& w, const WalkNames& names, std::vecto
     report.frames = std::move(records);
     report.loads = w.residency.counters;
     const LoaderCounters loader = w.loader->counters();
-    report.loads.suspended = loader.suspended;
-    report.loads.bytes = loader.bytesRead;
+    report.loads.suspended = loader.suspended - w.loaderBefore.suspended;
+    report.loads.bytes = loader.bytesRead - w.loaderBefore.bytesRead;
     report.budgetBytes = budgetBytes(w.settings.load);
     report.peakBytes = w.residency.peakBytes;
     for (const EffectRow& row : effectTable()) {

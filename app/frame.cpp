@@ -111,6 +111,10 @@ void drawFront(Workbench& w, const View& view, FrameRecord& record) {
     const DrawInput input{w.scene->hierarchy,  w.selection.front, view,
                           w.settings.draw,     w.effects,         glm::vec3(w.scene->info.upVector())};
     w.renderer->draw(input, w.frame);
+    if (!w.renderer->fault().empty()) {
+        record.frame = 0;  // not drawn: its time says nothing
+        if (w.onFault) w.onFault({Error::Kind::failed, "drawing", {}, w.renderer->fault(), {}});
+    }
 }
 
 void feedBackTime(Workbench& w, std::uint64_t frame, double actualMs) {
@@ -119,8 +123,10 @@ void feedBackTime(Workbench& w, std::uint64_t frame, double actualMs) {
     if (!features || record.frame != frame) return;  // too late to be of use
     record.actualMs = actualMs;
     feedBack(w.control, w.settings.control, *features, actualMs);
+    record.infeasible = w.control.infeasible;
     w.history.push(record);
     if (w.onRecord) w.onRecord(record);
+    record.frame = 0;  // a second time for it would be another's
 }
 
 void measureFrame(Workbench& w) {
@@ -138,6 +144,7 @@ void measureFrame(Workbench& w) {
 }  // namespace
 
 void runFrame(Workbench& w, const FrameInput& input) {
+    followSettings(w);
     FrameRecord& record = beginRecord(w, input);
     const View view = makeView(input.camera, input.velocity, input.width, input.height);
     decideFrameEffects(w, record);

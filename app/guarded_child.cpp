@@ -1,5 +1,6 @@
 #include "app/guarded_child.h"
 
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -17,6 +18,7 @@ namespace fb {
 namespace {
 
 constexpr rlim_t kWallSeconds = 6 * 3600;
+constexpr int kPatienceMs = 1000;  // from the wish to stop to the kill
 constexpr char kSeparator = '\x1f';
 
 // A signal handler can reach nothing but an object of static storage.
@@ -48,16 +50,24 @@ void sendError(int pipeEnd, const Error& error) {
     }
 }
 
-// A request to stop that reaches the waiting parent alone (SIGTERM) is passed on to the child.
+// A request to stop is passed on to the child, which stops at a good moment. One that does not come to it within a second
+// (a decoder in a loop) is killed: what it has finished is kept.
 std::string readAll(int pipeEnd, pid_t child) {
+    constexpr int kLookMs = 50;
     std::string text;
     std::array<char, 4096> buffer{};
+    int stoppingMs = 0;
     for (;;) {
-        const ssize_t got = ::read(pipeEnd, buffer.data(), buffer.size());
-        if (got < 0 && errno == EINTR) {
-            if (stopFlag != 0) ::kill(child, SIGTERM);
-            continue;
+        pollfd end{pipeEnd, POLLIN, 0};
+        const int ready = ::poll(&end, 1, kLookMs);
+        if (stopFlag != 0) {
+            if (stoppingMs == 0) ::kill(child, SIGTERM);
+            stoppingMs += kLookMs;
+            if (stoppingMs > kPatienceMs) ::kill(child, SIGKILL);
         }
+        if (ready <= 0) continue;
+        const ssize_t got = ::read(pipeEnd, buffer.data(), buffer.size());
+        if (got < 0 && errno == EINTR) continue;
         if (got <= 0) return text;
         text.append(buffer.data(), static_cast<std::size_t>(got));
     }
@@ -79,7 +89,8 @@ Error readError(const std::string& text) {
 int runChild(int pipeEnd, const std::function<Result<void>()>& work) {
     limitThisProcess();
     watchForStop();
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // nobody would hear the answer
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would hear the answer
+    ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     try {
         const Result<void> done = work();
         if (done) return 0;
@@ -128,6 +139,7 @@ Result<void> runGuarded(const std::string& what, const std::function<Result<void
         return tl::make_unexpected(std::move(error));
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+    if (stopWanted()) return failure(what, {}, "stopped", "what is finished is kept; run it again to go on from there");
     if (WIFSIGNALED(status)) {
         const char* name = ::strsignal(WTERMSIG(status));
         return failure(what, {}, std::string("the process that reads it died: ") + name,

@@ -145,8 +145,14 @@ int runProgram(int argumentCount, char** arguments) {
         if (problem.get_exit_code() == 0) return program.exit(problem);  // --help, --version
         return report(usageFailure({}, problem.what(), "`frontbench --help` lists commands and options").value());
     }
-    const Result<void> done = line.run();
-    return done ? 0 : report(done.error());
+    try {
+        const Result<void> done = line.run();
+        return done ? 0 : report(done.error());
+    } catch (const std::bad_alloc&) {
+        return report({Error::Kind::failed, {}, {}, "there is not enough memory", {}});
+    } catch (const std::exception& problem) {  // libraries and the file system
+        return report({Error::Kind::failed, {}, {}, problem.what(), {}});
+    }
 }
 
 }  // namespace fb

@@ -19,6 +19,7 @@ void playPath(Session& s, const std::string& name) {
 }
 
 void showScene(Session& s, const std::filesystem::path& folder) {
+    s.messageIsError = false;
     if (Result<void> opened = openScene(s.workbench, folder); !opened) return complain(s, opened.error());
     s.fly.up = s.workbench.scene->info.upVector();
     s.path.reset();
@@ -49,7 +50,8 @@ std::filesystem::path cachedSceneOf(const std::vector<std::filesystem::path>& me
 }
 
 bool isSceneFolder(const std::filesystem::path& path) {
-    return std::filesystem::is_directory(path) || path.extension() == ".fbscene";
+    std::error_code unreadable;
+    return std::filesystem::is_directory(path, unreadable) || path.extension() == ".fbscene";
 }
 
 void loadPresetInto(Session& s, const std::string& nameOrPath) {
@@ -77,7 +79,8 @@ void saveWindow(Session& s, const std::filesystem::path& file) {
 std::filesystem::path nextScreenshotName() {
     for (int i = 1;; ++i) {
         const std::filesystem::path file = "frontbench-" + std::to_string(i) + ".png";
-        if (!std::filesystem::exists(file)) return file;
+        std::error_code unreadable;
+        if (!std::filesystem::exists(file, unreadable)) return file;
     }
 }
 
@@ -114,10 +117,13 @@ void pollChild(Session& s) {
     if (!ended) return;
     if (!*ended) return complain(s, ended->error());
     showScene(s, s.childOutput);
+    if (s.messageIsError) return;
     for (const std::string& note : s.child.notes()) say(s, note);
 }
 
 void carryOut(Session& s, const UiRequests& requests) {
+    // Knobs bound by a common rule may have to pass through a forbidden pair: again once the others are set.
+    for (const KnobEdit& edit : requests.edits) static_cast<void>(admit(s.workbench.settings, *edit.knob, edit.value, "Tuning"));
     for (const KnobEdit& edit : requests.edits) {
         Result<void> taken = admit(s.workbench.settings, *edit.knob, edit.value, "Tuning");
         if (!taken) complain(s, taken.error());
@@ -139,7 +145,10 @@ Result<void> openSession(const OpenCommand& command, Session& s) {
     if (Result<void> taken = applySets(s.workbench.settings, command.sets); !taken) return taken;
     s.presets = listPresets();
     for (const auto& input : command.inputs) {
-        if (!std::filesystem::exists(input)) return failure(input.string(), {}, "there is no such file or folder");
+        std::error_code problem;
+        if (!std::filesystem::exists(input, problem)) {
+            return failure(input.string(), {}, problem ? problem.message() : "there is no such file or folder");
+        }
     }
     Result<std::unique_ptr<Window>> window = Window::open(*size, "Frontbench");
     if (!window) return passOn(window);
@@ -147,7 +156,7 @@ Result<void> openSession(const OpenCommand& command, Session& s) {
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(programFolder() / "shaders");
     if (!renderer) return passOn(renderer);
     s.workbench.renderer = std::move(*renderer);
-    s.workbench.onFault = [&s](const Error& fault) { complain(s, fault); };
+    s.workbench.onFault = [&s](const Error& fault) { s.faults.hear(fault); };
     s.device = s.workbench.renderer->deviceName();
     if (!command.out.empty()) {
         if (Result<void> made = makeFolder(command.out); !made) return made;

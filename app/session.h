@@ -9,6 +9,7 @@
 
 #include "app/build_child.h"
 #include "app/commands.h"
+#include "app/fault_log.h"
 #include "app/fly_camera.h"
 #include "app/window.h"
 #include "app/workbench.h"
@@ -17,6 +18,10 @@
 #include "ui/workbench_ui.h"
 
 namespace fb {
+
+struct Session;
+void say(Session& session, std::string text);
+void complain(Session& session, const Error& error);
 
 // The window's context must outlive the workbench's renderer: it stands first.
 struct Session {
@@ -34,6 +39,7 @@ struct Session {
     std::filesystem::path childOutput;
     UiState ui;
     UiRequests requests;  // of the frame before: the view's size and whether the mouse is over it
+    FaultLog faults{[this](const Error& fault) { complain(*this, fault); }};
     std::string message;
     bool messageIsError = false;
     std::uint32_t errors = 0;
@@ -49,9 +55,6 @@ struct Session {
 void openInputs(Session& session, const std::vector<std::filesystem::path>& inputs);
 // Shows the scene of a child that has ended.
 void pollChild(Session& session);
-
-void say(Session& session, std::string text);
-void complain(Session& session, const Error& error);
 
 // Carries out what the panels asked for in this frame.
 void carryOut(Session& session, const UiRequests& requests);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/frame.h"
+#include "base/clock.h"
 #include "control/model_device.h"
 
 namespace fb {
@@ -42,7 +43,9 @@ Result<void> openScene(Workbench& w, const std::filesystem::path& folder) {
 }
 
 void restartWalk(Workbench& w) {
+    if (w.renderer && w.frame > 0) waitForTimes(w);  // or they would be taken for the new walk's
     w.selectState.reset(w.scene->hierarchy, w.settings.select);
+    w.applied = {w.settings.select.cTextured, w.settings.select.hystStart};
     w.inFront.assign(w.scene->hierarchy.size(), 0);
     w.selection.clear();
     w.plan.everythingLoaded = false;
@@ -52,7 +55,25 @@ void restartWalk(Workbench& w) {
     w.nowSeconds = 0.0;
     w.frontHash = 0;
     w.effectFrames = {};
+    w.features = {};
+    w.residency.counters = {};
+    w.residency.peakBytes = w.residency.residentBytes;
+    w.loaderBefore = w.loader->counters();
     for (FrameRecord& record : w.pending) record.frame = 0;
+}
+
+void followSettings(Workbench& w) {
+    const SelectSettings& now = w.settings.select;
+    if (now.cTextured != w.applied.cTextured) {
+        double before = 0.0, after = 0.0;
+        for (NodeId n = 0; n < w.scene->hierarchy.rootCount; ++n) {
+            before += nodeCost(w.scene->hierarchy, n, w.applied.cTextured);
+            after += nodeCost(w.scene->hierarchy, n, now.cTextured);
+        }
+        rescaleCost(w.control, after / before);
+    }
+    if (now.hystStart != w.applied.hystStart) w.selectState.reset(w.scene->hierarchy, now);
+    w.applied = {now.cTextured, now.hystStart};
 }
 
 double nearMetres(const Workbench& w) {
@@ -66,12 +87,15 @@ void settle(Workbench& w, const FrameInput& input, double limitSeconds) {
     // Two quiet frames in a row: a plan may wish for more as soon as a group has arrived.
     int quiet = 0;
     const auto heard = std::exchange(w.onRecord, nullptr);
+    const SteadyClock::time_point start = SteadyClock::now();
     for (double waited = 0.0; waited < limitSeconds && quiet < 2; waited += input.dtSeconds) {
         runFrame(w, resting);
+        // The loader lives in real time.
+        if (w.clock == ClockKind::real) sleepUntil(start, waited + input.dtSeconds);
         quiet = w.residency.inFlight.empty() ? quiet + 1 : 0;
     }
-    w.onRecord = heard;
     restartWalk(w);
+    w.onRecord = heard;
 }
 
 }  // namespace fb

@@ -22,6 +22,11 @@ namespace fb {
 
 enum class ClockKind { real, model };
 
+// Settings whose change asks for more than to be read: as they were in the frame before.
+struct AppliedSettings {
+    double cTextured = 0.0, hystStart = 0.0;
+};
+
 struct Workbench {
     Settings settings;
     ClockKind clock = ClockKind::real;
@@ -50,6 +55,8 @@ struct Workbench {
     History history;
     std::array<std::uint64_t, kEffectCount> effectFrames{};  // frames in which each effect was active
     double lastUiMs = 0.0;
+    LoaderCounters loaderBefore;     // when the walk began
+    AppliedSettings applied;
 
     [[nodiscard]] NodeDevice& device() { return renderer ? static_cast<NodeDevice&>(*renderer) : nullDevice; }
     ~Workbench();
@@ -65,6 +72,10 @@ void closeScene(Workbench& workbench);
 
 // Measures the fixed overhead and the start value of v_time by drawing (real clock) or from the simulated device.
 void calibrate(Workbench& workbench);
+
+// Before a frame: what follows from settings that were changed since the one before. Another c_textured is another unit of
+// cost, in which v_time is converted; another h_0 starts all counters again.
+void followSettings(Workbench& workbench);
 
 // The camera's near plane: the knob's, or a small part of a small scene.
 [[nodiscard]] double nearMetres(const Workbench& workbench);

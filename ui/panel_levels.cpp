@@ -9,7 +9,7 @@ namespace fb {
 void drawLevelsPanel(const UiInput& input, UiState& state) {
     ImGui::TextUnformatted("Levels");
     if (!input.scene) return;
-    const int levels = input.scene->hierarchy.maxLevel() + 1;
+    const int levels = shownLevels(*input.scene);
     for (int level = 0; level < levels; ++level) {
         const glm::vec3& c = input.levelColours[static_cast<std::size_t>(level)];
         const std::uint32_t nodes =

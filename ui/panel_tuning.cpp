@@ -143,6 +143,7 @@ void drawTuningPanel(const UiInput& input, UiState& state, UiRequests& requests)
     }
     ImGui::BeginChild("knobs");
     for (std::string_view group : knobGroups()) {
+        if (group == "model") continue;  // of the model clock, which the window never runs on
         // What is rarely turned while walking starts closed.
         const bool open = group == "select" || group == "control" || group == "load" || group == "draw";
         const bool any = std::ranges::any_of(

@@ -32,7 +32,7 @@ void drawLegend(const UiInput& input, ImVec2 corner) {
     if (input.settings.draw.colour != ColourMode::level || !input.scene) return;
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float line = ImGui::GetTextLineHeightWithSpacing();
-    const int levels = input.scene->hierarchy.maxLevel() + 1;
+    const int levels = shownLevels(*input.scene);
     const float width = ImGui::CalcTextSize("level 00 (coarse)").x + 34.0f;
     const ImVec2 end(corner.x + width, corner.y + line * static_cast<float>(levels) + 8.0f);
     list->AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_PopupBg), 4.0f);

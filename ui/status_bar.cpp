@@ -13,6 +13,7 @@ namespace {
 std::string_view whatBinds(const FrameRecord& record) {
     const auto most = std::ranges::max_element(record.boundBy);
     if (record.frontNodes == 0) return "nothing in view";
+    if (record.infeasible) return "time: the roots alone take longer than the target";
     if (!record.moreDetailAvailable) return "nothing: every node in view is a leaf";
     std::size_t reason = static_cast<std::size_t>(most - record.boundBy.begin());
     if (reason == static_cast<std::size_t>(BoundBy::leaf)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <thread>
 
 namespace fb {
 
@@ -9,6 +10,12 @@ using SteadyClock = std::chrono::steady_clock;
 
 [[nodiscard]] inline double millisecondsSince(SteadyClock::time_point start) {
     return std::chrono::duration<double, std::milli>(SteadyClock::now() - start).count();
+}
+
+// Sleeps until `seconds` after `start`; returns at once when that is past.
+inline void sleepUntil(SteadyClock::time_point start, double seconds) {
+    std::this_thread::sleep_until(
+        start + std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds)));
 }
 
 // Adds the time from construction to destruction to a sum, in milliseconds.

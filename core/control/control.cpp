@@ -59,6 +59,13 @@ ControlState startControl(double vTimeMs, double overheadMs) {
     return state;
 }
 
+void rescaleCost(ControlState& state, double ratio) {
+    if (!(ratio > 0.0) || !std::isfinite(ratio)) return;
+    state.vTimeMs /= ratio;
+    state.calibratedMs /= ratio;
+    for (double& marginalMs : state.recentMarginal) marginalMs /= ratio;
+}
+
 double estimateMs(const ControlState& state, double frontCost) {
     return state.overheadMs + state.vTimeMs * frontCost;
 }

@@ -37,6 +37,9 @@ struct FrameFeatures {
 [[nodiscard]] ControlState startControl(double vTimeMs, double overheadMs);
 [[nodiscard]] double estimateMs(const ControlState& state, double frontCost);
 
+// Another unit of cost: what was one is now `ratio` of them.
+void rescaleCost(ControlState& state, double ratio);
+
 // Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual <= O, not finite).
 // With the median gate on, the share loop sees the gated time too.
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs);

@@ -10,6 +10,7 @@
 
 namespace fb {
 
+// Levels that are told apart; deeper ones count with the last.
 inline constexpr int kMaxLevels = 16;
 
 struct FrameRecord {
@@ -28,6 +29,7 @@ struct FrameRecord {
     std::uint32_t pendingLoads = 0, evictions = 0;
     double errorPixelsMax = 0.0, errorPixelsMean = 0.0;  // screen-space error of the front, mean by area
     std::array<std::uint32_t, kBoundByCount> boundBy{};
+    bool infeasible = false;           // the roots alone take longer than the target
     bool moreDetailAvailable = false;  // something in the front could have been finer
     std::uint64_t effectsOn = 0;       // bit i: Effect i was active
     std::uint64_t frontHash = 0;       // chained over all frames so far

@@ -42,6 +42,7 @@ struct ReplayReport {
 // - toggles.frames_per_toggle: frames / (up + down); null without toggles
 // - levels_share: mean over the frames with a front of the share of its nodes on each level
 // - memory.over_budget_frames: frames with resident + reserved > budget
+// - infeasible_frames: frames in which the roots alone were estimated to take longer than the target
 // - err_px: mean of err_px_mean, p95 and max of err_px_max
 // - image: see ImageErrorSummary; a figure in decibels is null where all pictures are identical
 // - front_hash: of the last frame

@@ -154,6 +154,7 @@ std::string summaryJson(const ReplayReport& report) {
     json["frames"] = frames.size();
     json["target_ms"] = numberOrNull(report.targetMs);
     json["actual_ms"] = actualOf(frames);
+    json["infeasible_frames"] = std::ranges::count_if(frames, &FrameRecord::infeasible);
     json["utilisation"] = utilisationOf(frames);
     json["over_target_pct"] = overTargetPercent(frames);
     json["estimate_error_pct"] = estimateErrorOf(frames);

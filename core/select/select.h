@@ -1,5 +1,5 @@
 // Selecting the front: hierarchy + residency + view + time -> the nodes drawn this frame, with the reason why each is
-// not finer. One signature for every policy (one file each, table in policies.cpp).
+// not finer. One signature for every policy (one file each, table in select.cpp).
 // A selection allocates nothing once its vectors have grown, and costs in proportion to the nodes it visits.
 #pragma once
 

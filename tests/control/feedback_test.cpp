@@ -295,5 +295,22 @@ RC_GTEST_PROP(FeedBack, KeepsEveryNumberFiniteAndInItsLimits, ()) {
     }
 }
 
+// Halving the unit of cost doubles every cost: v_time halves, and a front is estimated as before.
+TEST(RescaleCost, KeepsEstimates) {
+    ControlState state = startControl(2e-4, 3.0);
+    state.vTimeMs = 4e-4;
+    state.recentMarginal = {1e-4, 2e-4, 3e-4};
+    const double before = estimateMs(state, 1000.0);
+    rescaleCost(state, 2.0);
+    EXPECT_DOUBLE_EQ(estimateMs(state, 2000.0), before);
+    EXPECT_DOUBLE_EQ(state.calibratedMs, 1e-4);
+    EXPECT_DOUBLE_EQ(state.recentMarginal[2], 1.5e-4);
+    const ControlState kept = state;
+    for (const double ratio : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        rescaleCost(state, ratio);
+        EXPECT_EQ(state.vTimeMs, kept.vTimeMs);
+    }
+}
+
 }  // namespace
 }  // namespace fb

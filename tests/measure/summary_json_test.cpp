@@ -27,7 +27,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
         "program",   "version",       "scene",           "scene_hash",
         "preset",    "settings_hash", "policy",          "path",
         "clock",     "device",        "frames",          "target_ms",
-        "actual_ms", "utilisation",   "over_target_pct", "estimate_error_pct",
+        "actual_ms", "infeasible_frames", "utilisation", "over_target_pct", "estimate_error_pct",
         "toggles",   "levels_share",  "front_nodes",     "triangles",
         "select_us", "visited",       "memory",          "loads",
         "err_px",    "effects",       "front_hash"};
@@ -71,7 +71,9 @@ TEST(SummaryJson, SaysWhatWasReplayed) {
 // more detail. One frame of three is above 33 ms. Errors -25 %, 25 %, -10 %: mean -10/3, squares of the
 // deviations 469.44 + 802.78 + 44.44 = 1316.67, a third of it 438.89.
 TEST(SummaryJson, WorksOutTimes) {
-    const Json json = summaryOf(test::smallReport());
+    ReplayReport report = test::smallReport();
+    report.frames[1].infeasible = true;
+    const Json json = summaryOf(report);
     EXPECT_DOUBLE_EQ(json["actual_ms"]["mean"], 30.0);
     EXPECT_DOUBLE_EQ(json["actual_ms"]["sd"], std::sqrt(24.0));
     EXPECT_EQ(json["actual_ms"]["p50"], 30.0);
@@ -79,6 +81,7 @@ TEST(SummaryJson, WorksOutTimes) {
     EXPECT_EQ(json["actual_ms"]["p99"], 36.0);
     EXPECT_EQ(json["actual_ms"]["max"], 36.0);
     EXPECT_DOUBLE_EQ(json["utilisation"], 1.0);
+    EXPECT_EQ(json["infeasible_frames"], 1);
     EXPECT_DOUBLE_EQ(json["over_target_pct"], 100.0 / 3.0);
     EXPECT_DOUBLE_EQ(json["estimate_error_pct"]["mean"], -10.0 / 3.0);
     EXPECT_NEAR(json["estimate_error_pct"]["sd"], std::sqrt(438.0 + 8.0 / 9.0), 1e-12);

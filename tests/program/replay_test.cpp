@@ -110,6 +110,25 @@ TEST_F(Replay, TheRealClockMeasuresDrawing) {
     EXPECT_EQ(summary["memory"]["over_budget_frames"], 0);
 }
 
+TEST_F(Replay, WhatWasLoadedBeforeTheWalkIsNotCounted) {
+    ASSERT_EQ(replay("--path still --settle --clock model --frames 5", "s").exitCode, 0);
+    const nlohmann::json settled = summaryOf("s");
+    EXPECT_EQ(settled["loads"]["completed"], 0);
+    EXPECT_EQ(settled["loads"]["bytes"], 0);
+    ASSERT_EQ(replay("--path still --clock model --frames 100", "u").exitCode, 0);
+    EXPECT_GT(summaryOf("u")["loads"]["completed"], 0);
+}
+
+TEST_F(Replay, AnAbsurdNumberOfFramesIsNotRefusedByCrashing) {
+    // Far more frames than memory would hold: it is stopped, as by Ctrl-C.
+    const ProgramRun run = runProgram(std::string("-s INT --preserve-status 3 ") + FB_PROGRAM + " replay " + scene() +
+                                          " --clock model --frames 18446744073709551615 --out " + (*folder / "long").string(),
+                                      "timeout");
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_EQ(run.errLines(), 1) << run.err;
+    EXPECT_NE(run.err.find("stopped"), std::string::npos) << run.err;
+}
+
 TEST_F(Replay, ABudgetTooSmallForTheRootsNamesTheNumberNeeded) {
     // One root that keeps all 80,000 triangles: 960,000 bytes of indices and as many of vertices.
     writeHills(*folder / "large.obj", 200);
