@@ -12,6 +12,7 @@
 namespace fb {
 namespace {
 
+constexpr std::uint64_t kMostDraws = 1000;  // of nodes, in one picture
 constexpr std::uint64_t kTrianglesToTime = 60000;  // enough to rise above the overhead, about 5 ms on two cores
 constexpr double kFallbackVTimeMs = 1e-4;
 
@@ -57,7 +58,8 @@ void calibrateByDrawing(Workbench& w, const View& view) {
         triangles += w.scene->hierarchy.triangles(n);
     }
     std::vector<NodeId> often;
-    const std::uint64_t repetitions = 1 + kTrianglesToTime / std::max<std::uint64_t>(triangles, 1);
+    const std::uint64_t repetitions = 1 + std::min(kTrianglesToTime / std::max<std::uint64_t>(triangles, 1),
+                                                   kMostDraws / std::max<std::uint64_t>(once.size(), 1));
     for (std::uint64_t i = 0; i <= repetitions; ++i) often.insert(often.end(), once.begin(), once.end());
 
     timeOnce(w, view, often);  // the first frame pays for compiling and paging in

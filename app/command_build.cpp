@@ -1,6 +1,8 @@
 // `frontbench build` and `frontbench city`: a source becomes a scene folder, in a guarded child process.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <tuple>
 
 #include "app/commands.h"
 #include "app/guarded_child.h"
@@ -17,6 +19,9 @@ namespace {
 Result<BuildSettings> buildSettings(const std::vector<std::string>& sets) {
     Settings settings;
     if (Result<void> taken = applySets(settings, sets); !taken) return passOn(taken);
+    for (const std::string& set : sets) {
+        if (!set.starts_with("build.")) return usageFailure("--set " + set, "does not matter here", "knobs of build.* do");
+    }
     return settings.build;
 }
 
@@ -24,6 +29,13 @@ Result<ImportOptions> importOptions(const BuildCommand& command) {
     ImportOptions options;
     options.trianglesPerBlock = command.blockTriangles;
     options.name = command.name;
+    if (std::ranges::any_of(command.name, [](char c) { return static_cast<unsigned char>(c) < ' '; })) {
+        return usageFailure("--name", "must be one line");
+    }
+    std::error_code problem;
+    if (!command.texture.empty() && !std::filesystem::exists(command.texture, problem)) {
+        return failure(command.texture, {}, "there is no such file");
+    }
     if (!command.texture.empty()) options.texture = command.texture;
     if (command.up == "y") options.up = UpAxis::y;
     else if (command.up == "z") options.up = UpAxis::z;
@@ -37,21 +49,25 @@ Result<ImportOptions> importOptions(const BuildCommand& command) {
     return options;
 }
 
+std::string counted(std::uint64_t count, const std::string& what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 void tell(const SourceInfo& info, const BuildReport& report, const std::filesystem::path& folder) {
     for (const std::string& line : info.report.lines()) std::fprintf(stderr, "note: %s\n", line.c_str());
     for (const std::string& line : report.warnings) std::fprintf(stderr, "note: %s\n", line.c_str());
-    std::fprintf(stderr, "%s: %llu triangles in %llu blocks became %llu nodes in %.1f s", folder.string().c_str(),
-                 static_cast<unsigned long long>(report.sourceTriangles),
-                 static_cast<unsigned long long>(report.blocks), static_cast<unsigned long long>(report.nodes),
-                 report.seconds);
-    if (report.reusedBlocks > 0) {
-        std::fprintf(stderr, ", %llu blocks taken over", static_cast<unsigned long long>(report.reusedBlocks));
-    }
-    if (report.stuckNodes > 0) {
-        std::fprintf(stderr, "; %llu nodes could not be simplified enough",
-                     static_cast<unsigned long long>(report.stuckNodes));
-    }
-    std::fputs("\n", stderr);
+    std::string line = folder.string() + ": " + counted(report.sourceTriangles, "triangle") + " in " +
+                       counted(report.blocks, "block") + " became " + counted(report.nodes, "node");
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, " in %.1f s", report.seconds);
+    line += seconds;
+    if (report.reusedBlocks > 0) line += ", " + counted(report.reusedBlocks, "block") + " taken over";
+    if (report.stuckNodes > 0) line += "; " + counted(report.stuckNodes, "node") + " could not be simplified enough";
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
+Result<void> checkOutput(const std::filesystem::path& output) {
+    return output.empty() ? usageFailure("--output", "must name a folder") : Result<void>();
 }
 
 Result<void> buildFrom(const BlockSource& source, const BuildSettings& settings, const std::filesystem::path& output,
@@ -65,14 +81,15 @@ Result<void> buildFrom(const BlockSource& source, const BuildSettings& settings,
 
 Result<CityOptions> cityOptions(const CityCommand& command) {
     CityOptions options;
-    const std::pair<const std::string&, std::uint64_t*> numbers[] = {{command.blocks, &options.blocks},
-                                                                    {command.triangles, &options.triangles},
-                                                                    {command.texels, &options.texels},
-                                                                    {command.seed, &options.seed}};
-    for (const auto& [text, value] : numbers) {
+    const std::tuple<const char*, const std::string&, std::uint64_t*> numbers[] = {
+        {"--blocks", command.blocks, &options.blocks},
+        {"--triangles", command.triangles, &options.triangles},
+        {"--texels", command.texels, &options.texels},
+        {"--seed", command.seed, &options.seed}};
+    for (const auto& [option, text, value] : numbers) {
         if (text.empty()) continue;
         const Result<std::uint64_t> count = parseCount(text);
-        if (!count) return tl::make_unexpected(count.error());
+        if (!count) return usageFailure(option + (" " + text), count.error().reason, count.error().hint);
         *value = *count;
     }
     return options;
@@ -85,6 +102,7 @@ Result<void> runBuild(const BuildCommand& command) {
     if (!settings) return passOn(settings);
     Result<ImportOptions> options = importOptions(command);
     if (!options) return passOn(options);
+    if (Result<void> named = checkOutput(command.output); !named) return named;
     std::string what = command.inputs.front().string();
     if (command.inputs.size() > 1) what += " and " + std::to_string(command.inputs.size() - 1) + " more";
     return runGuarded(what, [&]() -> Result<void> {
@@ -99,6 +117,7 @@ Result<void> runCity(const CityCommand& command) {
     if (!settings) return passOn(settings);
     Result<CityOptions> options = cityOptions(command);
     if (!options) return passOn(options);
+    if (Result<void> named = checkOutput(command.output); !named) return named;
     return runGuarded("city", [&]() -> Result<void> {
         auto source = makeCity(*options);
         if (!source) return passOn(source);

@@ -81,14 +81,16 @@ void runUi(Session& s) {
 
 // With --frames the window ends by itself: once so many frames have shown the scene, or when nothing could be opened.
 bool isOver(const OpenCommand& command, const Session& s, std::uint64_t shown) {
-    if (s.window->shouldClose() || s.quit || stopWanted()) return true;
+    if (s.window->shouldClose() || s.quit || s.failed || stopWanted()) return true;
     if (command.frames == 0) return false;
     return shown >= command.frames || (!s.workbench.scene && !s.child.running());
 }
 
 Result<void> finish(const OpenCommand& command, Session& s) {
     s.faults.flush();
-    if (!s.workbench.scene) return command.frames > 0 ? failure({}, {}, s.message) : Result<void>();
+    // Complaints were told when they came.
+    if (s.failed || (!s.workbench.scene && command.frames > 0)) return failure({}, {}, {});
+    if (!s.workbench.scene) return {};
     if (!command.screenshot.empty()) {
         if (Result<void> saved = s.window->saveScreenshot(command.screenshot); !saved) return saved;
     }

@@ -35,9 +35,11 @@ Result<void> readSettings(const ReplayCommand& command, Settings& settings) {
     Result<Preset> preset = loadPreset(command.preset);
     if (!preset) return passOn(preset);
     settings = preset->settings;
-    std::vector<std::string> sets = command.sets;
-    if (!command.policy.empty()) sets.push_back("select.policy=" + command.policy);
-    return applySets(settings, sets);
+    const std::vector<std::string>& sets = command.sets;
+    if (Result<void> taken = applySets(settings, sets); !taken || command.policy.empty()) return taken;
+    Result<void> taken = setFromText(settings, "select.policy", command.policy, "--policy");
+    if (!taken) taken.error().kind = Error::Kind::usage;
+    return taken;
 }
 
 Result<void> prepare(const ReplayCommand& command, Replay& replay) {
@@ -51,6 +53,7 @@ Result<void> prepare(const ReplayCommand& command, Replay& replay) {
     Result<glm::ivec2> size = parseSize(command.size);
     if (!size) return passOn(size);
     replay.size = *size;
+    if (command.out.empty()) return usageFailure("--out", "must name a folder");
     if (Result<void> made = makeFolder(command.out); !made) return made;
 
     std::filesystem::path folder = command.scene;

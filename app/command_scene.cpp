@@ -111,7 +111,7 @@ Result<void> runCheck(const std::filesystem::path& folder, ProgressStyle style) 
     if (!check) return passOn(check);
     for (const std::string& fault : check->faults) std::printf("%s\n", fault.c_str());
     if (!check->faults.empty()) {
-        return failure(folder.string(), {}, std::to_string(check->faults.size()) + " faults",
+        return failure(folder.string(), {}, std::to_string(check->faults.size()) + (check->faults.size() == 1 ? " fault" : " faults"),
                        "build the scene again: intact blocks are kept");
     }
     std::printf("%s: %llu payloads of %.1f MB are sound\n", folder.string().c_str(),

@@ -43,7 +43,7 @@ Result<glm::ivec2> parseSize(const std::string& text) {
     const bool read = x != std::string::npos && parseWhole(std::string_view(text).substr(0, x), size.x) &&
                       parseWhole(std::string_view(text).substr(x + 1), size.y);
     if (!read || size.x < 1 || size.y < 1 || size.x > 16384 || size.y > 16384) {
-        return usageFailure("--size " + text, "is not a size", "write WIDTHxHEIGHT, as in 1280x720");
+        return usageFailure("--size " + text, "is not a size", "write WIDTHxHEIGHT, as in 1280x720, each side up to 16384");
     }
     return size;
 }

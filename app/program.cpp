@@ -22,6 +22,9 @@ struct CommandLine {
     std::function<Result<void>()> run;
 };
 
+// "-1" would be read as the largest whole number.
+const CLI::Validator kNotNegative = CLI::NonNegativeNumber;
+
 const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::automatic},
                                                               {"bar", ProgressStyle::bar},
                                                               {"lines", ProgressStyle::lines},
@@ -29,7 +32,7 @@ const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressS
 
 void addProgress(CLI::App* command, ProgressStyle& style) {
     command->add_option("--progress", style, "How progress is shown: auto, bar, lines (for programs), none")
-        ->transform(CLI::CheckedTransformer(kProgressStyles, CLI::ignore_case).description(""));
+        ->transform(CLI::Transformer(kProgressStyles, CLI::ignore_case).description(""));
 }
 
 void addBuild(CLI::App& program, CommandLine& line) {
@@ -39,7 +42,7 @@ void addBuild(CLI::App& program, CommandLine& line) {
     command->add_option("-o,--output", b.output, "The scene's folder, NAME.fbscene")->required();
     command->add_option("--up", b.up, "Axis that points up: auto, y, z");
     command->add_option("--split", b.split, "How a mesh becomes blocks: auto, none, grid, groups");
-    command->add_option("--block-triangles", b.blockTriangles, "Triangles that a block of the grid should have");
+    command->add_option("--block-triangles", b.blockTriangles, "Triangles that a block of the grid should have")->check(kNotNegative);
     command->add_option("--texture", b.texture, "Texture for a file that names none");
     command->add_option("--name", b.name, "The scene's name");
     command->add_option("--set", b.sets, "Set a knob: build.NAME=VALUE");
@@ -61,7 +64,7 @@ void addCity(CLI::App& program, CommandLine& line) {
 }
 
 void addSceneCommands(CLI::App& program, CommandLine& line) {
-    CLI::App* info = program.add_subcommand("info", "Counts, sizes and errors per level, and the scene's health");
+    CLI::App* info = program.add_subcommand("info", "Counts, sizes and errors per level (`check` verifies the data)");
     info->add_option("SCENE", line.scene, "A scene's folder")->required();
     info->add_flag("--json", line.json, "As JSON");
     info->callback([&line] { line.run = [&line] { return runInfo(line.scene, line.json); }; });
@@ -80,10 +83,10 @@ void addReplay(CLI::App& program, CommandLine& line) {
     command->add_option("--preset", r.preset, "A preset's name or .toml file");
     command->add_option("--policy", r.policy, "Selection policy instead of the preset's");
     command->add_option("--clock", r.clock, "real: measured time; model: simulated, the same on every machine");
-    command->add_option("--frames", r.frames, "Number of frames; the whole path when left out");
+    command->add_option("--frames", r.frames, "Number of frames; 0 or left out: the whole path")->check(kNotNegative);
     command->add_option("--size", r.size, "Size of the picture, as in 1280x720");
     command->add_option("--set", r.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
-    command->add_option("--screenshot", r.screenshots, "Save this many frames, spread over the walk, as PNG");
+    command->add_option("--screenshot", r.screenshots, "Save this many frames, spread over the walk, as PNG")->check(kNotNegative);
     command->add_flag("--settle", r.settle, "Load what the first view wants before the walk starts");
     command->add_option("--out", r.out, "Folder for frames.csv, summary.json, plots and pictures")->required();
     command->callback([&line] { line.run = [&line] { return runReplay(line.replay); }; });
@@ -115,12 +118,13 @@ void addOpen(CLI::App& program, CommandLine& line) {
     program.add_option("--set", o.sets, "Set a knob: NAME=VALUE");
     program.add_option("--size", o.size, "Size of the window, as in 1600x900");
     program.add_option("--path", o.path, "Let this path move the camera at first: still walk drive fly walk-to-fly shake jump");
-    program.add_option("--frames", o.frames, "End after this many frames");
+    program.add_option("--frames", o.frames, "End after this many frames; 0 or left out: when it is closed")->check(kNotNegative);
     program.add_option("--screenshot", o.screenshot, "Save the window as PNG when it ends");
     program.add_option("--out", o.out, "Write frames.csv, summary.json and plots of the session there when it ends");
 }
 
 int report(const Error& error) {
+    if (error.reason.empty()) return 1;  // was told already
     std::fprintf(stderr, "frontbench: %s\n", error.oneLine().c_str());
     return error.kind == Error::Kind::usage ? 2 : 1;
 }

@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "app/option_text.h"
@@ -27,7 +28,9 @@ void showScene(Session& s, const std::filesystem::path& folder) {
     frameBounds(s.fly, s.workbench.scene->info.bounds);
     // A scene with streets is entered at the start of its walk.
     if (Result<CameraPath> still = loadPath("still", s.workbench.scene->info); still) s.fly.camera = still->at(0.0);
+    const std::uint32_t errorsBefore = s.errors;
     playPath(s, s.firstPath);
+    s.failed = s.failed || s.errors > errorsBefore;  // a path that the command line asked for
     if (!s.messageIsError) say(s, folder.filename().string());
 }
 
@@ -63,6 +66,11 @@ void loadPresetInto(Session& s, const std::string& nameOrPath) {
 }
 
 void savePresetAs(Session& s, const std::string& name) {
+    const auto refuse = [&](const char* why) { complain(s, failure("preset " + name, {}, why, "choose another name").value()); };
+    if (name.empty() || name.find('/') != std::string::npos || name.front() == '.') return refuse("is no name for a file");
+    for (const PresetFile& file : s.presets) {
+        if (file.shipped && file.name == name) return refuse("ships with the program");
+    }
     Preset preset{name, s.preset.about, s.workbench.settings};
     const std::filesystem::path file = userPresetFolder() / (name + ".toml");
     if (Result<void> saved = savePreset(preset, file); !saved) return complain(s, saved.error());
@@ -144,6 +152,9 @@ Result<void> openSession(const OpenCommand& command, Session& s) {
     s.workbench.settings = s.preset.settings;
     if (Result<void> taken = applySets(s.workbench.settings, command.sets); !taken) return taken;
     s.presets = listPresets();
+    if (command.inputs.size() > 1 && std::ranges::any_of(command.inputs, isSceneFolder)) {
+        return usageFailure("SCENE_OR_MESH", "takes one scene, or meshes", "several scenes cannot be open at once");
+    }
     for (const auto& input : command.inputs) {
         std::error_code problem;
         if (!std::filesystem::exists(input, problem)) {

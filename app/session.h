@@ -45,6 +45,7 @@ struct Session {
     std::uint32_t errors = 0;
     std::string device;
     bool quit = false;
+    bool failed = false;  // what the command line asked for could not be done
     std::vector<FrameRecord> records;  // of the open scene, when a report was asked for
 };
 

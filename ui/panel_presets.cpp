@@ -16,12 +16,11 @@ void drawPresetsPanel(const UiInput& input, UiState& state, UiRequests& requests
     ImGui::SetNextItemWidth(12.0f * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##name", "name", &state.presetToSave);
     ImGui::SameLine();
-    const bool named = !state.presetToSave.empty() && state.presetToSave.find('/') == std::string::npos;
-    if (ImGui::Button("Save") && named) requests.savePreset = state.presetToSave;
+    if (ImGui::Button("Save")) requests.savePreset = state.presetToSave;
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("into %s", userPresetFolder().c_str());
     ImGui::Separator();
     const std::vector<std::string> differences = presetDifferences(input.reference, input.settings);
-    ImGui::TextDisabled("%zu knobs differ from %.*s", differences.size(), static_cast<int>(input.presetName.size()),
+    ImGui::TextDisabled("%zu knob%s from %.*s", differences.size(), differences.size() == 1 ? " differs" : "s differ", static_cast<int>(input.presetName.size()),
                         input.presetName.data());
     ImGui::BeginChild("differences");
     for (const std::string& line : differences) ImGui::TextWrapped("%s", line.c_str());

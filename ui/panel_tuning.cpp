@@ -1,6 +1,7 @@
 // Tuning: every knob of the table, live. A dot marks a value that differs from the loaded preset; the button beside it
 // resets that one.
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -76,11 +77,11 @@ bool editChoice(const Knob& knob, double& value) {
     return edited;
 }
 
-void drawKnob(const UiInput& input, const Knob& knob, UiRequests& requests) {
+void drawKnob(const UiInput& input, const Knob& knob, UiState& state, UiRequests& requests) {
     ImGui::PushID(knob.path.c_str());
     double value = knob.get(input.settings);
     const double reference = knob.get(input.reference);
-    bool edited = false;
+    bool edited = false, typing = false;
     ImGui::SetNextItemWidth(0.52f * ImGui::GetContentRegionAvail().x);
     if (knob.type == KnobType::boolean) {
         bool on = value != 0.0;
@@ -89,10 +90,18 @@ void drawKnob(const UiInput& input, const Knob& knob, UiRequests& requests) {
         ImGui::SameLine(0.52f * ImGui::GetContentRegionAvail().x + ImGui::GetStyle().ItemSpacing.x);
     } else {
         edited = knob.type == KnobType::choice ? editChoice(knob, value) : editNumber(knob, value);
+        typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
         ImGui::SameLine();
     }
     const bool hoveredValue = ImGui::IsItemHovered() && !ImGui::IsItemActive();
-    if (edited) requests.edits.push_back({&knob, value});
+    if (edited) {
+        if (typing) state.typed = KnobEdit{&knob, value};
+        else requests.edits.push_back({&knob, value});
+    }
+    if (state.typed && state.typed->knob == &knob && !typing) {
+        if (!edited) requests.edits.push_back(*state.typed);
+        state.typed.reset();
+    }
 
     const bool changed = knob.get(input.settings) != reference;
     if (changed) {
@@ -150,9 +159,11 @@ void drawTuningPanel(const UiInput& input, UiState& state, UiRequests& requests)
             knobs(), [&](const Knob& k) { return k.group == group && matches(k, state.knobSearch); });
         if (!any) continue;
         ImGui::SetNextItemOpen(open || !state.knobSearch.empty(), state.knobSearch.empty() ? ImGuiCond_Once : ImGuiCond_Always);
-        if (!ImGui::CollapsingHeader(std::string(groupTitle(group)).c_str())) continue;
+        // Headers of a search are others than those that the user opens and closes.
+        const char* id = state.knobSearch.empty() ? "" : "##search";
+        if (!ImGui::CollapsingHeader((std::string(groupTitle(group)) + id).c_str())) continue;
         for (const Knob& knob : knobs()) {
-            if (knob.group == group && matches(knob, state.knobSearch)) drawKnob(input, knob, requests);
+            if (knob.group == group && matches(knob, state.knobSearch)) drawKnob(input, knob, state, requests);
         }
     }
     ImGui::EndChild();

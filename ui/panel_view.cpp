@@ -26,6 +26,10 @@ void drawToolbar(const UiInput& input, UiRequests& requests) {
     ImGui::SameLine();
     ImGui::TextDisabled("%.3g m/s   right mouse: look   WASD QE: move   R T: roll   wheel: speed   Home: whole scene",
                         input.speedMetresPerSecond);
+    if (ImGui::IsItemHovered()) {
+        ImGui::SetTooltip("Alt + left mouse: orbit   middle mouse: pan   Shift: five times as fast\n"
+                          "Tab: hide the panels   F12: save the window as PNG   Ctrl+Q: quit");
+    }
 }
 
 void drawLegend(const UiInput& input, ImVec2 corner) {

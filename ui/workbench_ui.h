@@ -64,6 +64,7 @@ struct UiState {
     float timeShare = 0.5f;     // of the bottom row's width
     std::string knobSearch;
     std::string presetToSave;
+    std::optional<KnobEdit> typed;  // a number that is being typed; asked for when the typing ends
     double shownSeconds = 20.0;  // length of the plots
     bool logTime = false;
     bool hidden = false;         // Tab: the view alone

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/clock.h"
+#include "base/folder_lock.h"
 #include "build/hash_block.h"
 
 namespace fb {
@@ -156,6 +157,8 @@ Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& s
     const SteadyClock::time_point start = SteadyClock::now();
     const std::size_t count = source.blockCount();
     if (Result<void> made = makeFolder(folder); !made) return passOn(made);
+    Result<FolderLock> lock = FolderLock::take(folder);
+    if (!lock) return passOn(lock);
     const SceneTask task{source, settings, folder, hashBuildSettings(settings)};
     std::vector<FinishedBlock> finished(count);
     ProgressGate gate(progress, std::max<std::size_t>(count, 1));

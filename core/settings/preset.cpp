@@ -135,8 +135,9 @@ std::filesystem::path userPresetFolder() {
 
 std::vector<PresetFile> listPresets() {
     std::vector<PresetFile> files;
-    const std::pair<std::filesystem::path, bool> folders[] = {
-        {userPresetFolder(), false}, {programFolder() / "presets", true}};
+    // What ships comes first: `default` is the same for everybody.
+    const std::pair<std::filesystem::path, bool> folders[] = {{programFolder() / "presets", true},
+                                                              {userPresetFolder(), false}};
     for (const auto& [folder, shipped] : folders) {
         std::error_code missing;
         for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {

@@ -28,7 +28,7 @@ struct PresetFile {
 [[nodiscard]] std::string presetToml(const Preset& preset);
 [[nodiscard]] Result<void> savePreset(const Preset& preset, const std::filesystem::path& path);
 
-// The folders that are searched: the user's ($XDG_CONFIG_HOME/frontbench/presets) first, then the shipped one.
+// The user's own: $XDG_CONFIG_HOME/frontbench/presets. Presets that ship are never hidden by one of the same name there.
 [[nodiscard]] std::filesystem::path userPresetFolder();
 [[nodiscard]] std::vector<PresetFile> listPresets();
 // `nameOrPath`: a name from listPresets() or a path to a .toml file.

@@ -112,5 +112,23 @@ TEST(CommandLine, KnobsAndPresetsAreListedOnStandardOutput) {
     EXPECT_NE(runProgram("presets diff default lakhia2004").out.find("select.hyst_switch"), std::string::npos);
 }
 
+TEST(CommandLine, OptionsThatCannotBeMeantAreNamed) {
+    const TemporaryFolder folder;
+    writeTriangle(folder / "t.obj");
+    const std::string mesh = (folder / "t.obj").string(), scene = (folder / "t.fbscene").string();
+    const std::string build = "build --progress none " + mesh + " -o ";
+    expectOneLine(runProgram(build + "''"), 2, "--output");
+    expectOneLine(runProgram(build + scene + " --set select.policy=full"), 2, "select.policy=full");
+    expectOneLine(runProgram(build + scene + " --texture " + (folder / "no.png").string()), 1, "no.png");
+    expectOneLine(runProgram("build " + mesh + " -o " + scene + " --progress often"), 2, "--progress");
+    expectOneLine(runProgram("city --progress none -o " + scene + " --blocks x"), 2, "--blocks x");
+    ASSERT_EQ(runProgram(build + scene).exitCode, 0);
+    const std::string replay = "replay " + scene + " --clock model --out ";
+    expectOneLine(runProgram(replay + "''"), 2, "--out");
+    expectOneLine(runProgram(replay + (folder / "o").string() + " --frames -1"), 2, "--frames");
+    expectOneLine(runProgram(replay + (folder / "o").string() + " --policy best"), 2, "--policy");
+    expectOneLine(runProgram(scene + " " + mesh), 2, "one scene");
+}
+
 }  // namespace
 }  // namespace fb

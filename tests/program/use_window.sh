@@ -6,7 +6,7 @@ set -euo pipefail
 program=$1 scene=$2 folder=$3
 cd "$folder"
 
-Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>display 2>/dev/null &
+Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp -noreset 3>display 2>/dev/null &
 server=$!
 trap 'kill $server 2>/dev/null || true' EXIT
 for _ in $(seq 100); do [ -s display ] && break; sleep 0.1; done
@@ -29,4 +29,4 @@ xdotool sleep 0.5 mousemove 908 86 sleep 0.2 mousedown 1 sleep 0.3 mouseup 1
 xdotool sleep 3 mousemove 300 60 click 1 sleep 0.3 key F12 sleep 0.5 key ctrl+q
 for _ in $(seq 100); do kill -0 $window 2>/dev/null || break; sleep 0.1; done
 kill $window 2>/dev/null || true
-wait $window
+wait $window || { code=$?; echo "the window ended with $code:" >&2; cat errors >&2; exit $code; }

@@ -246,13 +246,16 @@ TEST_F(PresetFolders, AreTheUsersAndTheShippedOne) {
     EXPECT_EQ(mine->about, "of the user");
 }
 
-TEST_F(PresetFolders, TheUsersPresetHidesTheShippedOneOfTheSameName) {
+// A report that names the preset `default` means the same everywhere.
+TEST_F(PresetFolders, AShippedPresetIsNeverHiddenByOneOfTheUsers) {
     Settings settings;
     settings.select.cVis = 3.0;
     ASSERT_TRUE(savePreset({"default", "my own", settings}, userPresetFolder() / "default.toml"));
-    const Result<Preset> mine = loadPreset("default");
+    const Result<Preset> mine = loadPreset("default");  // and by its path it still loads
+    ASSERT_TRUE(loadPreset((userPresetFolder() / "default.toml").string()));
     ASSERT_TRUE(mine) << mine.error().oneLine();
-    EXPECT_EQ(mine->about, "my own");
+    EXPECT_NE(mine->about, "my own");
+    EXPECT_NE(mine->settings.select.cVis, 3.0);
     const std::vector<PresetFile> files = listPresets();
     EXPECT_EQ(std::ranges::count(files, "default", &PresetFile::name), 1);
 }
