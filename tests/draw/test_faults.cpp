@@ -8,6 +8,7 @@
 
 #include "draw/compile_shaders.h"
 #include "draw/draw_world.h"
+#include "worlds/scratch_folder.h"
 
 namespace fb::draw_test {
 
@@ -69,15 +70,7 @@ DecodedNode texturedNode(float left) {
 // A copy of the shaders in which a file can be spoilt; removed in the end.
 class SpoiltShaders {
   public:
-    SpoiltShaders() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "fb_shaders_XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-        folder = pattern;
-        std::filesystem::copy(kShaders, folder, std::filesystem::copy_options::recursive);
-    }
-    ~SpoiltShaders() { std::filesystem::remove_all(folder); }
-    SpoiltShaders(const SpoiltShaders&) = delete;
-    SpoiltShaders& operator=(const SpoiltShaders&) = delete;
+    SpoiltShaders() { std::filesystem::copy(kShaders, folder, std::filesystem::copy_options::recursive); }
 
     // Returns the number of the line.
     int insertBefore(const std::string& file, const std::string& start, const std::string& text) const {
@@ -96,7 +89,12 @@ class SpoiltShaders {
         std::ofstream(folder / file) << all;
         return found;
     }
-    std::filesystem::path folder;
+
+  private:
+    ScratchFolder scratch_;
+
+  public:
+    const std::filesystem::path folder = scratch_.path();
 };
 
 }  // namespace

@@ -1,8 +1,7 @@
-// A folder that exists as long as the test, and short ways to read meshes from files written into it.
+// A scratch folder to write files into, and short ways to read meshes from files written into it.
 #pragma once
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,35 +15,19 @@
 #include <vector>
 
 #include "import/import_files.h"
+#include "worlds/scratch_folder.h"
 
 namespace fb::test {
 
-class TempFolder {
+class TempFolder : public ScratchFolder {
   public:
-    TempFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "import_XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no folder for the test";
-        path_ = pattern;
-    }
-    ~TempFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
     std::filesystem::path write(const std::string& name, std::string_view content) const {
-        const std::filesystem::path file = path_ / name;
+        const std::filesystem::path file = path() / name;
         std::filesystem::create_directories(file.parent_path());
         std::ofstream(file, std::ios::binary)
             .write(content.data(), static_cast<std::streamsize>(content.size()));
         return file;
     }
-
-  private:
-    std::filesystem::path path_;
 };
 
 // Little-endian bytes of numbers, one after another.

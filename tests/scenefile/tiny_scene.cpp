@@ -13,20 +13,18 @@
 
 namespace fb::test {
 
-TemporaryFolder::TemporaryFolder() {
-    // In memory where that can be: these tests sync many small files.
+namespace {
+
+// In memory where that can be: these tests sync many small files.
+std::filesystem::path quickFolder() {
     const std::filesystem::path memory = "/dev/shm";
     const bool writable = ::access(memory.c_str(), W_OK | X_OK) == 0;
-    const std::filesystem::path base = writable ? memory : std::filesystem::temp_directory_path();
-    std::string pattern = (base / "fb_scenefile_XXXXXX").string();
-    if (::mkdtemp(pattern.data()) == nullptr) std::abort();
-    path_ = pattern;
+    return writable ? memory : std::filesystem::temp_directory_path();
 }
 
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() : ScratchFolder(quickFolder()) {}
 
 Bytes readAll(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

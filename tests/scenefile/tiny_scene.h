@@ -8,19 +8,13 @@
 #include <vector>
 
 #include "scenefile/scene.h"
+#include "worlds/scratch_folder.h"
 
 namespace fb::test {
 
-class TemporaryFolder {
+class TemporaryFolder : public ScratchFolder {
   public:
     TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
 };
 
 using Bytes = std::vector<std::uint8_t>;

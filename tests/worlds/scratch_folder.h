@@ -9,13 +9,14 @@ namespace fb {
 
 class ScratchFolder {
   public:
-    ScratchFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "frontbench-test-XXXXXX").string();
+    explicit ScratchFolder(const std::filesystem::path& base = std::filesystem::temp_directory_path()) {
+        std::string pattern = (base / "frontbench-test-XXXXXX").string();  // mkdtemp fills it in
         if (mkdtemp(pattern.data()) == nullptr) std::abort();
         path_ = pattern;
     }
     ~ScratchFolder() {
         std::error_code ignored;
+        std::filesystem::permissions(path_, std::filesystem::perms::owner_all, ignored);  // a test may have taken them
         std::filesystem::remove_all(path_, ignored);
     }
     ScratchFolder(const ScratchFolder&) = delete;
