@@ -20,12 +20,14 @@ bool sameLengths(const Hierarchy& h) {
                                 h.bounds.size(),
                                 h.texturedTriangles.size(),
                                 h.untexturedTriangles.size(),
+                                h.skirtTriangles.size(),
                                 h.vertices.size(),
                                 h.staticBenefit.size(),
                                 h.averageNormal.size(),
                                 h.normalCoherence.size(),
                                 h.areaSquareMetres.size(),
                                 h.geometricErrorMetres.size(),
+                                h.borderErrorMetres.size(),
                                 h.textureWidth.size(),
                                 h.textureHeight.size(),
                                 h.residentBytes.size(),
@@ -96,6 +98,7 @@ Fault checkNumbers(const Hierarchy& h, NodeId n) {
     if (!notNegative(h.staticBenefit[n])) return "the benefit is negative or not finite";
     if (!notNegative(h.areaSquareMetres[n])) return "the area is negative or not finite";
     if (!notNegative(h.geometricErrorMetres[n])) return "the error is negative or not finite";
+    if (!notNegative(h.borderErrorMetres[n])) return "the border error is negative or not finite";
     if (h.isLeaf(n) && h.geometricErrorMetres[n] != 0.0f) return "the error of a leaf must be 0";
     if (!(h.normalCoherence[n] >= 0.0f && h.normalCoherence[n] <= 1.0f))
         return "the coherence is not in [0, 1]";
@@ -115,6 +118,7 @@ Fault checkCounts(const Hierarchy& h, NodeId n) {
     const std::uint64_t triangles = std::uint64_t{h.texturedTriangles[n]} + h.untexturedTriangles[n];
     if (triangles > kMaxNodeTriangles)
         return "there are more triangles than " + std::to_string(kMaxNodeTriangles);
+    if (h.skirtTriangles[n] > triangles) return "there are more skirts than triangles";
     if (h.vertices[n] > kMaxNodeVertices)
         return "there are more vertices than " + std::to_string(kMaxNodeVertices);
     const bool textured = h.textureWidth[n] != 0 || h.textureHeight[n] != 0;

@@ -43,6 +43,10 @@ std::string compareCounts(const NodeData& data, const Hierarchy& h, NodeId n) {
     if (mesh.untexturedTriangles != h.untexturedTriangles[n]) {
         return disagreement("untextured triangles", mesh.untexturedTriangles, h.untexturedTriangles[n]);
     }
+    if (const std::uint32_t skirts = mesh.texturedSkirts + mesh.untexturedSkirts;
+        skirts != h.skirtTriangles[n]) {
+        return disagreement("skirt triangles", skirts, h.skirtTriangles[n]);
+    }
     if (data.texture.width != h.textureWidth[n]) {
         return disagreement("texels across", data.texture.width, h.textureWidth[n]);
     }
@@ -71,6 +75,7 @@ MeshFacts measureMesh(const NodeMesh& mesh, const BlockGrid& grid, const Box3f& 
         for (const glm::dvec3& corner : {a, b, c}) {
             facts.insideBounds = facts.insideBounds && bounds.contains(glm::vec3(corner));
         }
+        if (mesh.isSkirt(static_cast<std::uint32_t>(i / 3))) continue;
         facts.areaSquareMetres += 0.5 * glm::length(glm::cross(b - a, c - a));
         const double perimeter = glm::distance(a, b) + glm::distance(b, c) + glm::distance(c, a);
         facts.areaSlack += (perimeter + 3.0 * grid.step) * grid.step;

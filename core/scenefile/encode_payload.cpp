@@ -24,6 +24,8 @@ void chooseCodecVersions() {
 
 void checkOwnMesh(const NodeMesh& mesh) {
     FB_CHECK(mesh.indices.size() == (std::size_t{mesh.texturedTriangles} + mesh.untexturedTriangles) * 3);
+    FB_CHECK(mesh.texturedSkirts <= mesh.texturedTriangles);
+    FB_CHECK(mesh.untexturedSkirts <= mesh.untexturedTriangles);
     for (std::uint32_t index : mesh.indices) FB_CHECK(index < mesh.vertices.size());
     for (const NodeVertex& v : mesh.vertices) FB_CHECK(std::max({v.x, v.y, v.z}) < kGridCells);
 }
@@ -42,15 +44,18 @@ void checkOwnTexture(const NodeData& node) {
     FB_CHECK(texture.channels <= 4);
 }
 
-// Triangles in the order of the GPU's vertex cache, the textured and the untextured ones each for themselves.
+// Triangles in the order of the GPU's vertex cache, within each of: textured, its skirts, untextured, its skirts.
 std::vector<std::uint32_t> orderTriangles(const NodeMesh& mesh) {
     std::vector<std::uint32_t> ordered(mesh.indices.size());
-    const std::size_t split = std::size_t{mesh.texturedTriangles} * 3;
-    const std::pair<std::size_t, std::size_t> ranges[] = {{0, split}, {split, mesh.indices.size() - split}};
-    for (const auto& [first, count] : ranges) {
+    std::size_t first = 0;
+    for (const std::uint32_t triangles :
+         {mesh.texturedTriangles - mesh.texturedSkirts, mesh.texturedSkirts,
+          mesh.untexturedTriangles - mesh.untexturedSkirts, mesh.untexturedSkirts}) {
+        const std::size_t count = std::size_t{triangles} * 3;
         if (count == 0) continue;
         meshopt_optimizeVertexCache(ordered.data() + first, mesh.indices.data() + first, count,
                                     mesh.vertices.size());
+        first += count;
     }
     return ordered;
 }
@@ -135,6 +140,7 @@ Result<std::vector<std::uint8_t>> encodePayload(const NodeData& node) {
     out.text(kPayloadMagic).put(kPayloadVersion);
     out.put(static_cast<std::uint32_t>(vertices.size()));
     out.put(node.mesh.texturedTriangles).put(node.mesh.untexturedTriangles);
+    out.put(node.mesh.texturedSkirts).put(node.mesh.untexturedSkirts);
     out.put(node.mesh.flags.alphaMask ? kFlagAlphaMask : 0u);
     out.put(static_cast<std::uint8_t>(texture.codec)).put(textured ? texture.channels : std::uint8_t{0});
     out.put(texture.width).put(texture.height).put(std::uint16_t{0});

@@ -17,6 +17,8 @@ void Hierarchy::resize(std::size_t nodes) {
     bounds.resize(nodes);
     texturedTriangles.resize(nodes, 0);
     untexturedTriangles.resize(nodes, 0);
+    skirtTriangles.resize(nodes, 0);
+    borderErrorMetres.resize(nodes, 0.0f);
     vertices.resize(nodes, 0);
     staticBenefit.resize(nodes, 0.0f);
     averageNormal.resize(nodes, glm::vec3(0.0f));

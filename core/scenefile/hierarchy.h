@@ -39,11 +39,13 @@ struct Hierarchy {
     std::vector<std::uint32_t> block;
     std::vector<Box3f> bounds;  // contains the bounds of all descendants
     std::vector<std::uint32_t> texturedTriangles, untexturedTriangles, vertices;
+    std::vector<std::uint32_t> skirtTriangles;  // of the triangles: see NodeMesh
     std::vector<float> staticBenefit;         // sqrt(triangles * area)
     std::vector<glm::vec3> averageNormal;     // unit, or (0,0,0) where directions cancel out
     std::vector<float> normalCoherence;       // |sum of n*area| / area in [0, 1]
     std::vector<float> areaSquareMetres;
     std::vector<float> geometricErrorMetres;  // never larger in a child than in its parent; 0 in leaves
+    std::vector<float> borderErrorMetres;  // widest gap to a neighbour of another level, were there no skirts
     std::vector<std::uint16_t> textureWidth, textureHeight;  // 0 without texture
     std::vector<std::uint32_t> residentBytes;  // mesh + texture with mip levels, as uploaded
     std::vector<PayloadRef> payload;

@@ -24,10 +24,11 @@ void putBlock(ByteWriter& out, const BlockGrid& grid, const StoredPack& pack) {
 void putNode(ByteWriter& out, const Hierarchy& h, NodeId n) {
     out.put(n).put(h.parent[n]).put(h.firstChild[n]).put(h.childCount[n]);
     out.put(std::uint32_t{h.level[n]}).put(h.block[n]).put(h.bounds[n].min).put(h.bounds[n].max);
-    out.put(h.texturedTriangles[n]).put(h.untexturedTriangles[n]).put(h.vertices[n]);
+    out.put(h.texturedTriangles[n]).put(h.untexturedTriangles[n]).put(h.skirtTriangles[n]).put(h.vertices[n]);
     out.put(h.staticBenefit[n]).put(h.averageNormal[n]).put(h.normalCoherence[n]);
     out.put(h.areaSquareMetres[n])
         .put(h.geometricErrorMetres[n])
+        .put(h.borderErrorMetres[n])
         .put(h.textureWidth[n])
         .put(h.textureHeight[n]);
     const PayloadRef& payload = h.payload[n];
@@ -47,12 +48,14 @@ bool getNode(ByteReader& in, Hierarchy& h, NodeId n) {
     in.get(h.bounds[n].max);
     in.get(h.texturedTriangles[n]);
     in.get(h.untexturedTriangles[n]);
+    in.get(h.skirtTriangles[n]);
     in.get(h.vertices[n]);
     in.get(h.staticBenefit[n]);
     in.get(h.averageNormal[n]);
     in.get(h.normalCoherence[n]);
     in.get(h.areaSquareMetres[n]);
     in.get(h.geometricErrorMetres[n]);
+    in.get(h.borderErrorMetres[n]);
     in.get(h.textureWidth[n]);
     in.get(h.textureHeight[n]);
     in.get(h.payload[n].pack);

@@ -1,7 +1,7 @@
 // hierarchy.bin: the scene description file of the thesis (design section 5), as bytes.
 //   header       magic, version, numbers of blocks and nodes, checksums of both tables and of itself (48
 //   bytes) block table  pack number, grid, length and seal of the pack (56 bytes a block) node table   one
-//   record a node, breadth first (116 bytes a node)
+//   record a node, breadth first (124 bytes a node)
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,6 @@ struct HierarchyFile {
 
 inline constexpr std::uint64_t kHierarchyHeaderBytes = 48;
 inline constexpr std::uint64_t kBlockRecordBytes = 56;
-inline constexpr std::uint64_t kNodeRecordBytes = 116;
+inline constexpr std::uint64_t kNodeRecordBytes = 124;
 
 }  // namespace fb

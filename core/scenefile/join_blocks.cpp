@@ -18,12 +18,14 @@ void setNode(Hierarchy& h, NodeId id, const BuiltNode& node) {
     h.bounds[id] = node.bounds;
     h.texturedTriangles[id] = node.texturedTriangles;
     h.untexturedTriangles[id] = node.untexturedTriangles;
+    h.skirtTriangles[id] = node.skirtTriangles;
     h.vertices[id] = node.vertices;
     h.staticBenefit[id] = node.staticBenefit;
     h.averageNormal[id] = node.averageNormal;
     h.normalCoherence[id] = node.normalCoherence;
     h.areaSquareMetres[id] = node.areaSquareMetres;
     h.geometricErrorMetres[id] = node.geometricErrorMetres;
+    h.borderErrorMetres[id] = node.borderErrorMetres;
     h.textureWidth[id] = node.textureWidth;
     h.textureHeight[id] = node.textureHeight;
     const std::uint64_t bytes =

@@ -29,10 +29,18 @@ struct NodeFlags {
 
 struct NodeMesh {
     std::vector<NodeVertex> vertices;
-    std::vector<std::uint32_t> indices;     // textured triangles first
-    std::uint32_t texturedTriangles = 0;
-    std::uint32_t untexturedTriangles = 0;
+    // Textured triangles first. The last ones of either part are skirts: they hang from borders that other nodes
+    // share, hide the gaps between levels, and count in neither area, benefit nor average normal.
+    std::vector<std::uint32_t> indices;
+    std::uint32_t texturedTriangles = 0, untexturedTriangles = 0;  // with skirts
+    std::uint32_t texturedSkirts = 0, untexturedSkirts = 0;
     NodeFlags flags;
+
+    [[nodiscard]] bool isSkirt(std::uint32_t triangle) const {
+        return triangle < texturedTriangles
+                   ? triangle >= texturedTriangles - texturedSkirts
+                   : triangle >= texturedTriangles + untexturedTriangles - untexturedSkirts;
+    }
 };
 
 struct NodeTexture {

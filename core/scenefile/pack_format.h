@@ -24,7 +24,7 @@ inline constexpr std::string_view kPackMagic = "fbpack\r\n";
 inline constexpr std::string_view kTrailerMagic = "fbtrail\n";
 inline constexpr std::uint32_t kPackHeaderBytes = 16;
 inline constexpr std::uint32_t kPackAlignment = 8;
-inline constexpr std::uint32_t kBuiltNodeBytes = 104;
+inline constexpr std::uint32_t kBuiltNodeBytes = 112;
 inline constexpr std::uint32_t kLeastTrailerBytes = 80 + kBuiltNodeBytes;  // of a block with one node
 
 struct PackTrailer {

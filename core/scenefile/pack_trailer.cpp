@@ -16,8 +16,9 @@ void putNode(ByteWriter& out, const BuiltNode& n) {
         .put(std::uint32_t{n.level})
         .put(n.bounds.min)
         .put(n.bounds.max);
-    out.put(n.texturedTriangles).put(n.untexturedTriangles).put(n.vertices);
+    out.put(n.texturedTriangles).put(n.untexturedTriangles).put(n.skirtTriangles).put(n.vertices);
     out.put(n.staticBenefit).put(n.normalCoherence).put(n.areaSquareMetres).put(n.geometricErrorMetres);
+    out.put(n.borderErrorMetres);
     out.put(n.averageNormal).put(n.textureWidth).put(n.textureHeight);
     out.put(n.payload.pack).put(n.payload.offset).put(n.payload.sizeBytes).put(n.payload.checksum);
 }
@@ -32,11 +33,13 @@ bool getNode(ByteReader& in, BuiltNode& n) {
     in.get(n.bounds.max);
     in.get(n.texturedTriangles);
     in.get(n.untexturedTriangles);
+    in.get(n.skirtTriangles);
     in.get(n.vertices);
     in.get(n.staticBenefit);
     in.get(n.normalCoherence);
     in.get(n.areaSquareMetres);
     in.get(n.geometricErrorMetres);
+    in.get(n.borderErrorMetres);
     in.get(n.averageNormal);
     in.get(n.textureWidth);
     in.get(n.textureHeight);

@@ -38,6 +38,10 @@ Result<void> checkSizes(const PayloadHeader& header, std::uint64_t left, const s
     if (triangles > kMaxNodeTriangles || fewestIndexBytes(triangles) > header.indexBytes) {
         return failure(what, {}, "the node claims too many triangles: " + std::to_string(triangles));
     }
+    if (header.texturedSkirts > header.texturedTriangles ||
+        header.untexturedSkirts > header.untexturedTriangles) {
+        return failure(what, {}, "the node claims more skirts than triangles");
+    }
     return {};
 }
 
@@ -78,6 +82,8 @@ Result<PayloadHeader> readHeader(ByteReader& in, const std::string& what) {
     in.get(header.vertices);
     in.get(header.texturedTriangles);
     in.get(header.untexturedTriangles);
+    in.get(header.texturedSkirts);
+    in.get(header.untexturedSkirts);
     in.get(header.flags);
     in.get(header.codec);
     in.get(header.channels);
@@ -136,6 +142,8 @@ Result<NodeData> parsePayload(std::span<const std::uint8_t> bytes, const std::st
     mesh.flags.alphaMask = (header->flags & kFlagAlphaMask) != 0;
     mesh.texturedTriangles = header->texturedTriangles;
     mesh.untexturedTriangles = header->untexturedTriangles;
+    mesh.texturedSkirts = header->texturedSkirts;
+    mesh.untexturedSkirts = header->untexturedSkirts;
     mesh.vertices.resize(header->vertices);
     mesh.indices.resize((std::size_t{header->texturedTriangles} + header->untexturedTriangles) * 3);
     if (Result<void> read = readVertices(in.take(header->vertexBytes), mesh, what); !read)

@@ -12,12 +12,13 @@
 namespace fb {
 
 inline constexpr std::string_view kPayloadMagic = "fbnd";
-inline constexpr std::uint32_t kPayloadVersion = 1;
-inline constexpr std::uint32_t kPayloadHeaderBytes = 44;
+inline constexpr std::uint32_t kPayloadVersion = 2;
+inline constexpr std::uint32_t kPayloadHeaderBytes = 52;
 inline constexpr std::uint32_t kFlagAlphaMask = 1;
 
 struct PayloadHeader {
     std::uint32_t vertices = 0, texturedTriangles = 0, untexturedTriangles = 0;
+    std::uint32_t texturedSkirts = 0, untexturedSkirts = 0;  // of the triangles
     std::uint32_t flags = 0;
     std::uint8_t codec = 0, channels = 0;  // channels 0 without texture
     std::uint16_t textureWidth = 0, textureHeight = 0;

@@ -16,7 +16,7 @@
 
 namespace fb {
 
-inline constexpr std::uint32_t kSceneFormatVersion = 1;
+inline constexpr std::uint32_t kSceneFormatVersion = 2;
 
 struct SceneInfo {
     std::string name;
@@ -64,8 +64,9 @@ struct BuiltNode {
     std::uint32_t childCount = 0;
     std::uint8_t level = 0;
     Box3f bounds;
-    std::uint32_t texturedTriangles = 0, untexturedTriangles = 0, vertices = 0;
+    std::uint32_t texturedTriangles = 0, untexturedTriangles = 0, skirtTriangles = 0, vertices = 0;
     float staticBenefit = 0, normalCoherence = 0, areaSquareMetres = 0, geometricErrorMetres = 0;
+    float borderErrorMetres = 0;
     glm::vec3 averageNormal{0.0f};
     std::uint16_t textureWidth = 0, textureHeight = 0;
     PayloadRef payload;

@@ -104,6 +104,8 @@ TEST(CheckHierarchy, NamesTheNodeThatBreaksARule) {
          "node 4: there are more triangles"},
         {[](Hierarchy& h) { h.texturedTriangles[4] = ~0u, h.untexturedTriangles[4] = 1; },
          "node 4: there are more triangles"},
+        {[](Hierarchy& h) { h.skirtTriangles[4] = h.triangles(4) + 1; }, "node 4: there are more skirts"},
+        {[&](Hierarchy& h) { h.borderErrorMetres[4] = nan; }, "node 4: the border error"},
         {[](Hierarchy& h) { h.textureWidth[4] = 10, h.textureHeight[4] = 8; }, "node 4: a texture side"},
         {[](Hierarchy& h) { h.textureWidth[4] = 8; }, "node 4: a texture side"},
         {[](Hierarchy& h) { h.textureWidth[4] = 24576, h.textureHeight[4] = 4; }, "node 4: a texture side"},

@@ -43,11 +43,11 @@ TEST(OpenScene, SaysWhatIsMissing) {
 TEST(OpenScene, NamesAnotherVersion) {
     const TemporaryFolder folder;
     test::writeTinyScene(folder.path(), {test::tinyBlock(0)});
-    const std::string other = "made by version 2; this program reads 1 (build it again)";
+    const std::string other = "made by version 3; this program reads 2 (build it again)";
     for (const char* name : {"hierarchy.bin", "blocks/00000.pack"}) {
         const Bytes good = test::readAll(folder.path() / name);
         Bytes bytes = good;
-        bytes[8] = 2;
+        bytes[8] = 3;
         test::overwrite(folder.path() / name, bytes);
         EXPECT_TRUE(says(soleFault(folder.path()), std::string(name) + ": header: " + other))
             << soleFault(folder.path());
@@ -55,7 +55,7 @@ TEST(OpenScene, NamesAnotherVersion) {
     }
     Bytes toml = test::readAll(folder.path() / "scene.toml");
     const std::string text(toml.begin(), toml.end());
-    toml[text.find("format = 1") + 9] = '2';
+    toml[text.find("format = 2") + 9] = '3';
     test::overwrite(folder.path() / "scene.toml", toml);
     EXPECT_TRUE(says(lineOf(openScene(folder.path())), "scene.toml: line 2: " + other));
 }
@@ -65,7 +65,7 @@ TEST(OpenScene, RefusesEveryPrefixOfTheHierarchy) {
     test::writeTinyScene(folder.path(), {test::tinyBlock(1)});
     const std::filesystem::path path = folder.path() / "hierarchy.bin";
     Bytes bytes = test::readAll(path);
-    EXPECT_EQ(bytes.size(), 48u + 56u + 2u * 116u);
+    EXPECT_EQ(bytes.size(), 48u + 56u + 2u * 124u);
     for (std::size_t length = 0; length < bytes.size(); ++length) {
         test::overwrite(path, std::span(bytes).first(length));
         EXPECT_FALSE(openScene(folder.path())) << length;
@@ -75,7 +75,7 @@ TEST(OpenScene, RefusesEveryPrefixOfTheHierarchy) {
     }
     bytes.push_back(0);
     test::overwrite(path, bytes);
-    EXPECT_TRUE(says(lineOf(openScene(folder.path())), "the tables take 288 bytes, but 289 are there"));
+    EXPECT_TRUE(says(lineOf(openScene(folder.path())), "the tables take 304 bytes, but 305 are there"));
 }
 
 TEST(OpenScene, RefusesEveryPrefixOfAPackAndOneByteMore) {
@@ -132,14 +132,14 @@ TEST(ParseHierarchyFile, BelievesNoCountThatTheBytesCannotHold) {
     const auto verdict = [](std::uint32_t blocks, std::uint32_t nodes) {
         Bytes header(kHierarchyHeaderBytes, 0);
         std::memcpy(header.data(), "fbscene\n", 8);
-        header[8] = 1;
+        header[8] = kSceneFormatVersion;
         std::memcpy(&header[12], &blocks, 4);
         std::memcpy(&header[16], &nodes, 4);
         const std::uint64_t hash = hashBytes(header.data(), kHierarchyHeaderBytes - 8);
         std::memcpy(&header[kHierarchyHeaderBytes - 8], &hash, 8);
         return lineOf(parseHierarchyFile(header, "file"));
     };
-    EXPECT_TRUE(says(verdict(kMaxBlocks, kMaxNodes), "the tables take 1951757056 bytes, but 0 are there"));
+    EXPECT_TRUE(says(verdict(kMaxBlocks, kMaxNodes), "the tables take 2085974784 bytes, but 0 are there"));
     EXPECT_TRUE(says(verdict(kMaxBlocks + 1, kMaxNodes), "cannot have 100001 blocks"));
     EXPECT_TRUE(says(verdict(kMaxBlocks, kMaxNodes + 1), "cannot have 100000 blocks and 16777217 nodes"));
     EXPECT_TRUE(says(verdict(0, 1), "cannot have"));

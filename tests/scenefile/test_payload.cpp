@@ -69,6 +69,10 @@ NodeData randomNode() {
     const bool textured = *rc::gen::arbitrary<bool>();
     node.mesh.texturedTriangles = textured ? *rc::gen::inRange<std::uint32_t>(0, 300) : 0;
     node.mesh.untexturedTriangles = *rc::gen::inRange<std::uint32_t>(0, 300);
+    node.mesh.texturedSkirts =
+        node.mesh.texturedTriangles > 0 ? *rc::gen::inRange<std::uint32_t>(0, node.mesh.texturedTriangles + 1) : 0;
+    node.mesh.untexturedSkirts =
+        *rc::gen::inRange<std::uint32_t>(0, node.mesh.untexturedTriangles + 1);
     node.mesh.flags.alphaMask = *rc::gen::arbitrary<bool>();
     const std::uint32_t indices = 3 * (node.mesh.texturedTriangles + node.mesh.untexturedTriangles);
     for (std::uint32_t i = 0; i < indices; ++i) {
@@ -94,10 +98,15 @@ RC_GTEST_PROP(Payload, GivesBackWhatWasWritten, ()) {
     RC_ASSERT(after.untexturedTriangles == before.untexturedTriangles);
     RC_ASSERT(after.flags.alphaMask == before.flags.alphaMask);
     RC_ASSERT(verticesOf(after) == verticesOf(before));
-    const std::size_t split = before.texturedTriangles;
-    RC_ASSERT(trianglesOf(after, 0, split) == trianglesOf(before, 0, split));
-    RC_ASSERT(trianglesOf(after, split, before.untexturedTriangles) ==
-              trianglesOf(before, split, before.untexturedTriangles));
+    RC_ASSERT(after.texturedSkirts == before.texturedSkirts);
+    RC_ASSERT(after.untexturedSkirts == before.untexturedSkirts);
+    std::size_t first = 0;
+    for (const std::uint32_t count :
+         {before.texturedTriangles - before.texturedSkirts, before.texturedSkirts,
+          before.untexturedTriangles - before.untexturedSkirts, before.untexturedSkirts}) {
+        RC_ASSERT(trianglesOf(after, first, count) == trianglesOf(before, first, count));
+        first += count;
+    }
     RC_ASSERT(read->texture.codec == node.texture.codec);
     RC_ASSERT(read->texture.width == node.texture.width);
     RC_ASSERT(read->texture.height == node.texture.height);
@@ -155,7 +164,7 @@ TEST(ParsePayload, NamesAnotherVersion) {
     Bytes bytes = tinyPayload();
     bytes[4] = 7;
     EXPECT_EQ(lineOf(parsePayload(bytes, "node")),
-              "node: made by version 7; this program reads 1 (build it again)");
+              "node: made by version 7; this program reads 2 (build it again)");
 }
 
 PayloadHeader soundHeader() {
@@ -202,6 +211,16 @@ TEST(CheckPayloadHeader, AcceptsCountsAtTheirCapsAndNoneAbove) {
     above = h;
     above.textureHeight = 24576;  // the next class
     EXPECT_TRUE(says(verdict(above), "cannot be"));
+}
+
+TEST(CheckPayloadHeader, RefusesMoreSkirtsThanTriangles) {
+    PayloadHeader h = soundHeader();
+    h.texturedSkirts = 1;
+    EXPECT_EQ(verdict(h), "no error");
+    h.texturedSkirts = 2;
+    EXPECT_TRUE(says(verdict(h), "more skirts than triangles"));
+    h.texturedSkirts = 0, h.untexturedSkirts = 1;
+    EXPECT_TRUE(says(verdict(h), "more skirts than triangles"));
 }
 
 TEST(CheckPayloadHeader, BelievesNoCountThatTheBytesCannotHold) {

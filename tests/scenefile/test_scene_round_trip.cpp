@@ -46,6 +46,7 @@ bool same(const Hierarchy& a, const Hierarchy& b) {
     return a.rootCount == b.rootCount && a.parent == b.parent && a.firstChild == b.firstChild &&
            a.childCount == b.childCount && a.level == b.level && a.block == b.block &&
            a.texturedTriangles == b.texturedTriangles && a.untexturedTriangles == b.untexturedTriangles &&
+           a.skirtTriangles == b.skirtTriangles && a.borderErrorMetres == b.borderErrorMetres &&
            a.vertices == b.vertices && a.staticBenefit == b.staticBenefit &&
            a.averageNormal == b.averageNormal && a.normalCoherence == b.normalCoherence &&
            a.areaSquareMetres == b.areaSquareMetres && a.geometricErrorMetres == b.geometricErrorMetres &&
@@ -79,6 +80,9 @@ BuiltBlock randomBlock(std::uint32_t pack, Random& random, std::size_t wanted) {
     for (BuiltNode& node : block.nodes) {
         node.texturedTriangles = static_cast<std::uint32_t>(random.index(5000));
         node.untexturedTriangles = static_cast<std::uint32_t>(random.index(5000));
+        node.skirtTriangles =
+            static_cast<std::uint32_t>(random.index(node.texturedTriangles + node.untexturedTriangles + 1));
+        node.borderErrorMetres = static_cast<float>(random.uniform(0.0, 9.0));
         node.vertices = static_cast<std::uint32_t>(random.index(9000));
         node.staticBenefit = static_cast<float>(random.uniform(0.0, 1e6));
         node.normalCoherence = static_cast<float>(random.uniform());
