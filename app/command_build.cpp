@@ -66,16 +66,31 @@ void tell(const SourceInfo& info, const BuildReport& report, const std::filesyst
     std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+void tellPhases(const BuildPhases& phases) {
+    const std::pair<const char*, double> all[] = {
+        {"load", phases.load},     {"textures", phases.textures}, {"simplify", phases.simplify},
+        {"errors", phases.errors}, {"skirts", phases.skirts},     {"dress", phases.dress},
+        {"atlas", phases.atlas},   {"encode", phases.encode},     {"write", phases.write}};
+    std::string line = "thread seconds:";
+    for (const auto& [name, seconds] : all) {
+        char text[48];
+        std::snprintf(text, sizeof text, " %s %.2f", name, seconds);
+        line += text;
+    }
+    std::fprintf(stderr, "%s\n", line.c_str());
+}
+
 Result<void> checkOutput(const std::filesystem::path& output) {
     return output.empty() ? usageFailure("--output", "must name a folder") : Result<void>();
 }
 
 Result<void> buildFrom(const BlockSource& source, const BuildSettings& settings, const std::filesystem::path& output,
-                       ProgressStyle style) {
+                       ProgressStyle style, bool phases) {
     Result<BuildReport> report = buildScene(source, settings, output, showProgress(style));
     endProgress(style);
     if (!report) return passOn(report);
     tell(source.info(), *report, output);
+    if (phases) tellPhases(report->phases);
     return {};
 }
 
@@ -108,7 +123,7 @@ Result<void> runBuild(const BuildCommand& command) {
     return runGuarded(what, [&]() -> Result<void> {
         auto source = importFiles(command.inputs, *options, showProgress(command.progress));
         if (!source) return passOn(source);
-        return buildFrom(**source, *settings, command.output, command.progress);
+        return buildFrom(**source, *settings, command.output, command.progress, command.phases);
     });
 }
 
@@ -121,7 +136,7 @@ Result<void> runCity(const CityCommand& command) {
     return runGuarded("city", [&]() -> Result<void> {
         auto source = makeCity(*options);
         if (!source) return passOn(source);
-        return buildFrom(**source, *settings, command.output, command.progress);
+        return buildFrom(**source, *settings, command.output, command.progress, command.phases);
     });
 }
 

@@ -23,6 +23,7 @@ struct BuildCommand {
     std::string name;
     std::vector<std::string> sets;  // --set build.k=v
     ProgressStyle progress = ProgressStyle::automatic;
+    bool phases = false;
 };
 [[nodiscard]] Result<void> runBuild(const BuildCommand& command);
 
@@ -31,6 +32,7 @@ struct CityCommand {
     std::string blocks, triangles, texels, seed;  // numbers with K, M or G; empty: the default
     std::vector<std::string> sets;
     ProgressStyle progress = ProgressStyle::automatic;
+    bool phases = false;
 };
 [[nodiscard]] Result<void> runCity(const CityCommand& command);
 // The built-in city's folder in the user's cache; made there first when it is missing.

@@ -30,6 +30,10 @@ const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressS
                                                               {"lines", ProgressStyle::lines},
                                                               {"none", ProgressStyle::none}};
 
+void addPhases(CLI::App* command, bool& phases) {
+    command->add_flag("--phases", phases, "Tell at the end where the time went");
+}
+
 void addProgress(CLI::App* command, ProgressStyle& style) {
     command->add_option("--progress", style, "How progress is shown: auto, bar, lines (for programs), none")
         ->transform(CLI::Transformer(kProgressStyles, CLI::ignore_case).description(""));
@@ -47,6 +51,7 @@ void addBuild(CLI::App& program, CommandLine& line) {
     command->add_option("--name", b.name, "The scene's name");
     command->add_option("--set", b.sets, "Set a knob: build.NAME=VALUE");
     addProgress(command, b.progress);
+    addPhases(command, b.phases);
     command->callback([&line] { line.run = [&line] { return runBuild(line.build); }; });
 }
 
@@ -60,6 +65,7 @@ void addCity(CLI::App& program, CommandLine& line) {
     command->add_option("--seed", c.seed, "Another seed makes another city");
     command->add_option("--set", c.sets, "Set a knob: build.NAME=VALUE");
     addProgress(command, c.progress);
+    addPhases(command, c.phases);
     command->callback([&line] { line.run = [&line] { return runCity(line.city); }; });
 }
 

@@ -31,4 +31,12 @@ class ScopedMilliseconds {
     SteadyClock::time_point start_;
 };
 
+// Seconds since `start`, which becomes now.
+[[nodiscard]] inline double secondsSinceLap(SteadyClock::time_point& start) {
+    const SteadyClock::time_point now = SteadyClock::now();
+    const double seconds = std::chrono::duration<double>(now - start).count();
+    start = now;
+    return seconds;
+}
+
 }  // namespace fb

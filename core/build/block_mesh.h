@@ -43,19 +43,32 @@ struct BlockMesh {
     BlockGrid grid;
     std::vector<GridPoint> positions;  // no two are equal
     HashIndex positionIndex;
-    std::vector<std::uint8_t> onCut;  // by position: lies on a cutting plane
+    std::vector<std::uint8_t> onCut;          // by position: lies on a cutting plane
+    std::vector<std::uint8_t> onBlockBorder;  // by position: another block has it too; may be shorter than positions
     std::vector<Wedge> wedges;        // of the source no two are equal
     std::vector<glm::vec3> normals;   // unit
     std::vector<Surface> surfaces;
 
     [[nodiscard]] const GridPoint& at(std::uint32_t wedge) const { return positions[wedges[wedge].position]; }
+    [[nodiscard]] bool isOnBlockBorder(std::uint32_t position) const {
+        return position < onBlockBorder.size() && onBlockBorder[position] != 0;
+    }
     [[nodiscard]] std::uint32_t findOrAddPosition(const GridPoint& point);
+};
+
+// All points with this coordinate on this axis.
+struct CutPlane {
+    int axis = 0;
+    std::int32_t at = 0;
+
+    auto operator<=>(const CutPlane&) const = default;
 };
 
 // One node's part of the original: triangles [begin, end) of its level.
 struct Piece {
     std::uint32_t parent = 0;  // index of the piece of the level above
     std::uint32_t begin = 0, end = 0;
+    std::vector<CutPlane> cuts{};  // where it was cut from its neighbours, at any level
 
     [[nodiscard]] std::uint32_t size() const { return end - begin; }
 };

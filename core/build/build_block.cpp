@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/check.h"
+#include "base/clock.h"
 #include "build/build_scene.h"
 #include "build/check_block.h"
 #include "build/finish_node.h"
 #include "build/make_atlas.h"
 #include "build/measure_error.h"
 #include "build/quantise_block.h"
-#include "build/split_mesh.h"
+#include "build/skirts.h"
 
 namespace fb {
 namespace {
@@ -23,20 +23,27 @@ class BlockBuilder {
 
     Result<BlockBuild> run() {
         if (Result<void> sound = checkBlock(source_); !sound) return passOn(sound);
+        BuildPhases& phases = result_.report.phases;
+        phaseStart_ = SteadyClock::now();
         textures_ = decodeTextures(source_);
         QuantisedBlock quantised = quantiseBlock(source_, textures_);
         reportSource(quantised);
         mesh_ = std::move(quantised.mesh);
-        Level level;
-        level.triangles = std::move(quantised.triangles);
-        if (level.triangles.empty()) {
+        Level root;
+        root.triangles = std::move(quantised.triangles);
+        if (root.triangles.empty()) {
             warn("block " + source_.name + " has no triangles and is left out");
             return std::move(result_);
         }
-        fillUnusedTexels(textures_, mesh_, level.triangles);
+        fillUnusedTexels(textures_, mesh_, root.triangles);
+        phases.textures += secondsSinceLap(phaseStart_);
         result_.block.grid = mesh_.grid;
-        level.pieces.push_back({0, 0, static_cast<std::uint32_t>(level.triangles.size())});
-        if (Result<void> built = buildLevels(std::move(level)); !built) return passOn(built);
+        root.pieces.push_back({0, 0, static_cast<std::uint32_t>(root.triangles.size())});
+        SplitCounters counters;
+        const std::vector<BlockLevel> levels = makeLevels(mesh_, std::move(root), settings_, counters);
+        result_.report.emptyPieces += counters.emptyPieces;
+        phases.simplify += secondsSinceLap(phaseStart_);
+        if (Result<void> finished = finishLevels(levels); !finished) return passOn(finished);
         growParents();
         reportResult();
         return std::move(result_);
@@ -56,89 +63,83 @@ class BlockBuilder {
         }
     }
 
-    // Level by level, from the root to the leaves: a level is simplified before it is cut for the next, so
-    // that only the planes that made it are locked.
-    Result<void> buildLevels(Level level) {
-        const auto triangles = static_cast<double>(level.triangles.size());
-        const auto desired = static_cast<double>(settings_.desiredTriangles);
-        double factor = triangles / desired;
-        std::uint32_t firstOfLevel = 0;
-        for (int depth = 0;; ++depth) {
-            // factor_0 <= 1: nothing to simplify; further down the printed rule, below 1.
-            const bool leaves = depth == 0 ? factor <= 1.0 : factor < 1.0;
-            const auto firstNode = static_cast<std::uint32_t>(result_.block.nodes.size());
-            for (const Piece& piece : level.pieces) {
+    // From the root to the leaves: nodes come breadth first.
+    Result<void> finishLevels(const std::vector<BlockLevel>& levels) {
+        const std::vector<std::vector<double>> errors = measureErrors(mesh_, levels);
+        result_.report.phases.errors += secondsSinceLap(phaseStart_);
+        const std::vector<std::vector<Skirts>> skirts = planSkirts(mesh_, levels, errors);
+        result_.report.phases.skirts += secondsSinceLap(phaseStart_);
+        std::size_t firstOfLevel = 0;
+        for (std::size_t l = 0; l < levels.size(); ++l) {
+            const std::size_t firstNode = result_.block.nodes.size();
+            for (std::size_t i = 0; i < levels[l].original.pieces.size(); ++i) {
                 BuiltNode node;
-                node.level = static_cast<std::uint8_t>(depth);
-                node.parentInBlock = depth == 0 ? 0 : firstOfLevel + piece.parent;
-                if (depth > 0) ++result_.block.nodes[node.parentInBlock].childCount;
+                node.level = static_cast<std::uint8_t>(l);
+                if (l > 0) {
+                    node.parentInBlock =
+                        static_cast<std::uint32_t>(firstOfLevel + levels[l].original.pieces[i].parent);
+                    ++result_.block.nodes[node.parentInBlock].childCount;
+                }
+                node.geometricErrorMetres = static_cast<float>(errors[l][i] * mesh_.grid.step);
+                node.borderErrorMetres = static_cast<float>(skirts[l][i].gapGridUnits * mesh_.grid.step);
                 result_.block.nodes.push_back(node);
             }
-            if (Result<void> done =
-                    leaves ? finishLeaves(level, firstNode) : finishInner(level, factor, firstNode);
-                !done) {
-                return done;
-            }
-            if (leaves) return {};
-            SplitCounters counters;
-            level = splitLevel(mesh_, level, static_cast<int>(settings_.levelFactor), counters);
-            result_.report.emptyPieces += counters.emptyPieces;
+            const Result<void> done = levels[l].isLeaves() ? finishLeaves(levels[l], skirts[l])
+                                                           : finishInner(levels[l], skirts[l]);
+            if (!done) return done;
             firstOfLevel = firstNode;
-            factor /= static_cast<double>(settings_.levelFactor);
-        }
-    }
-
-    Result<void> finishLeaves(const Level& level, std::uint32_t firstNode) {
-        for (std::size_t i = 0; i < level.pieces.size(); ++i) {
-            std::vector<NodeTriangle> dressed = dressOriginal(mesh_, pieceOf(level, i));
-            if (Result<void> done = finish(dressed, nullptr, 1.0, firstNode + i); !done) return done;
-            result_.report.leafTriangles += dressed.size();
         }
         return {};
     }
 
-    Result<void> finishInner(const Level& level, double factor, std::uint32_t firstNode) {
-        std::vector<std::size_t> aims;
-        for (const Piece& piece : level.pieces) aims.push_back(simplificationAim(piece.size(), factor));
-        const std::vector<SimplifiedPiece> simplified =
-            simplifyLevel(mesh_, level, aims, settings_.simplifier);
+    Result<void> finishLeaves(const BlockLevel& level, const std::vector<Skirts>& skirts) {
+        for (std::size_t i = 0; i < level.original.pieces.size(); ++i) {
+            std::vector<NodeTriangle> dressed = dressOriginal(mesh_, level.piece(i));
+            result_.report.leafTriangles += dressed.size();
+            if (Result<void> done = finish(dressed, nullptr, 1.0, skirts[i]); !done) return done;
+        }
+        return {};
+    }
+
+    Result<void> finishInner(const BlockLevel& level, const std::vector<Skirts>& skirts) {
         std::vector<std::uint32_t> scratch(mesh_.positions.size(), kNone);
-        const bool anyWelded =
-            std::any_of(simplified.begin(), simplified.end(), [](const auto& s) { return s.welded; });
+        const bool anyWelded = std::any_of(level.simplified.begin(), level.simplified.end(),
+                                           [](const SimplifiedPiece& s) { return s.welded; });
         std::vector<std::uint32_t> charts;
-        if (anyWelded) charts = chartsOfWedges(mesh_, level.triangles);
-        const double scale = 1.0 / std::sqrt(factor);
-        for (std::size_t i = 0; i < level.pieces.size(); ++i) {
-            const std::span<const MeshTriangle> piece = pieceOf(level, i);
+        if (anyWelded) charts = chartsOfWedges(mesh_, level.original.triangles);
+        const double scale = 1.0 / std::sqrt(level.factor);
+        for (std::size_t i = 0; i < level.simplified.size(); ++i) {
+            const SimplifiedPiece& simplified = level.simplified[i];
             std::optional<PieceSurface> surface;
             std::vector<NodeTriangle> dressed;
-            if (simplified[i].welded) {
-                surface.emplace(mesh_, piece, textures_);
-                dressed =
-                    dressWelded({mesh_, piece, *surface, textures_, charts, scale}, simplified[i], scratch);
+            if (simplified.welded) {
+                surface.emplace(mesh_, level.piece(i), textures_);
+                dressed = dressWelded({mesh_, level.piece(i), *surface, textures_, charts, scale}, simplified,
+                                      scratch);
             } else {
-                dressed = dressSeamed(mesh_, piece, simplified[i], scratch);
+                dressed = dressSeamed(mesh_, level.piece(i), simplified, scratch);
             }
-            BuiltNode& node = result_.block.nodes[firstNode + i];
-            node.geometricErrorMetres = static_cast<float>(
-                measureError(mesh_, piece, dressed, simplified[i].errorGridUnits) * mesh_.grid.step);
-            result_.report.stuckNodes += simplified[i].stuck ? 1 : 0;
-            carried_ += simplified[i].carriedTriangles;
-            if (Result<void> done = finish(dressed, surface ? &*surface : nullptr, scale, firstNode + i);
-                !done)
+            result_.report.stuckNodes += simplified.stuck ? 1 : 0;
+            carried_ += simplified.carriedTriangles;
+            if (Result<void> done = finish(dressed, surface ? &*surface : nullptr, scale, skirts[i]); !done)
                 return done;
         }
         return {};
     }
 
+    // The next node.
     Result<void> finish(std::vector<NodeTriangle>& triangles, const PieceSurface* surface, double scale,
-                        std::size_t nodeIndex) {
+                        const Skirts& skirts) {
+        BuildPhases& phases = result_.report.phases;
+        phases.dress += secondsSinceLap(phaseStart_);
         const Atlas atlas = makeAtlas(
             triangles, {mesh_, textures_, surface, scale, static_cast<int>(settings_.maxTextureSide)});
         reduced_ += atlas.reduced ? 1 : 0;
         replaced_ += atlas.replaced ? 1 : 0;
         blurredRepeats_ += atlas.blurredRepeats;
-        BuiltNode& node = result_.block.nodes[nodeIndex];
+        addSkirts(triangles, mesh_, skirts);
+        phases.atlas += secondsSinceLap(phaseStart_);
+        BuiltNode& node = result_.block.nodes[result_.nodes.size()];
         NodeData data;
         if (atlas.image) {
             Result<NodeTexture> texture =
@@ -148,10 +149,10 @@ class BlockBuilder {
             node.textureWidth = data.texture.width;
             node.textureHeight = data.texture.height;
         }
+        phases.encode += secondsSinceLap(phaseStart_);
         data.mesh = makeNodeMesh(mesh_, triangles, node.textureWidth, node.textureHeight);
         data.mesh.flags.alphaMask = data.mesh.flags.alphaMask || (atlas.image && atlas.image->channels == 4);
         measureNode(mesh_, triangles, data.mesh, node);
-        FB_CHECK(result_.nodes.size() == nodeIndex);
         result_.nodes.push_back(std::move(data));
         return {};
     }
@@ -163,18 +164,12 @@ class BlockBuilder {
                                                                               : PayloadCodec::jpeg;
     }
 
-    [[nodiscard]] static std::span<const MeshTriangle> pieceOf(const Level& level, std::size_t i) {
-        return {level.triangles.data() + level.pieces[i].begin, level.pieces[i].size()};
-    }
-
-    // Bounds and errors of parents contain their children's; children stand behind their parents.
+    // Bounds of parents contain their children's (so do errors, by measureErrors); children stand behind.
     void growParents() {
         std::vector<BuiltNode>& nodes = result_.block.nodes;
         for (std::size_t i = nodes.size(); i-- > 1;) {
             BuiltNode& parent = nodes[nodes[i].parentInBlock];
             parent.bounds.grow(nodes[i].bounds);
-            parent.geometricErrorMetres =
-                std::max(parent.geometricErrorMetres, nodes[i].geometricErrorMetres);
         }
     }
 
@@ -210,6 +205,7 @@ class BlockBuilder {
     BlockTextures textures_;
     BlockMesh mesh_;
     BlockBuild result_;
+    SteadyClock::time_point phaseStart_;
     std::uint64_t reduced_ = 0, replaced_ = 0, blurredRepeats_ = 0, carried_ = 0;
 };
 

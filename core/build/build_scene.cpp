@@ -46,7 +46,8 @@ BuildReport reportReused(const SourceBlock& source, const BuiltBlock& block) {
     report.sourceAreaSquareMetres = areaOf(source.mesh);
     for (const BuiltNode& node : block.nodes) {
         if (node.childCount > 0) continue;
-        report.leafTriangles += std::uint64_t{node.texturedTriangles} + node.untexturedTriangles;
+        report.leafTriangles +=
+            std::uint64_t{node.texturedTriangles} + node.untexturedTriangles - node.skirtTriangles;
         report.leafAreaSquareMetres += static_cast<double>(node.areaSquareMetres);
     }
     return report;
@@ -67,9 +68,11 @@ Result<void> writePack(const SceneTask& task, std::uint32_t index, std::uint64_t
 }
 
 Result<void> makeBlock(const SceneTask& task, std::uint32_t index, FinishedBlock& into) {
+    SteadyClock::time_point start = SteadyClock::now();
     Result<SourceBlock> source = task.source.load(index);
     if (!source) return passOn(source);
     const std::uint64_t blockHash = hashBlock(*source);
+    const double loadSeconds = secondsSinceLap(start);
     if (std::optional<BuiltBlock> reused = reusePack(task.folder, index, task.settingsHash, blockHash)) {
         into.report = reportReused(*source, *reused);
         into.block = std::move(*reused);
@@ -77,10 +80,13 @@ Result<void> makeBlock(const SceneTask& task, std::uint32_t index, FinishedBlock
     }
     Result<BlockBuild> built = buildBlock(*source, task.settings);
     if (!built) return passOn(built);
+    start = SteadyClock::now();
     if (!built->nodes.empty()) {
         if (Result<void> written = writePack(task, index, blockHash, *built); !written) return written;
     }
     into.report = std::move(built->report);
+    into.report.phases.load += loadSeconds;
+    into.report.phases.write += secondsSinceLap(start);
     into.block = std::move(built->block);
     return {};
 }
@@ -113,6 +119,7 @@ class ProgressGate {
 };
 
 void merge(BuildReport& total, BuildReport&& part) {
+    total.phases.add(part.phases);
     total.blocks += part.blocks;
     total.reusedBlocks += part.reusedBlocks;
     total.nodes += part.nodes;
@@ -151,6 +158,14 @@ SceneInfo describe(const SceneTask& task, const BuildReport& report, const std::
 }
 
 }  // namespace
+
+void BuildPhases::add(const BuildPhases& other) {
+    for (double BuildPhases::* phase :
+         {&BuildPhases::load, &BuildPhases::textures, &BuildPhases::simplify, &BuildPhases::errors, &BuildPhases::skirts,
+          &BuildPhases::dress, &BuildPhases::atlas, &BuildPhases::encode, &BuildPhases::write}) {
+        this->*phase += other.*phase;
+    }
+}
 
 Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& settings,
                                const std::filesystem::path& folder, const Progress& progress) {

@@ -12,6 +12,14 @@
 
 namespace fb {
 
+// Where the time of building went, in seconds, added up over blocks and so over threads.
+struct BuildPhases {
+    double load = 0.0, textures = 0.0, simplify = 0.0, errors = 0.0, skirts = 0.0, dress = 0.0, atlas = 0.0,
+           encode = 0.0, write = 0.0;
+
+    void add(const BuildPhases& other);
+};
+
 // What happened to the pieces; told to the user and kept in tests.
 struct BuildReport {
     std::uint64_t blocks = 0, reusedBlocks = 0, nodes = 0, emptyPieces = 0;
@@ -19,7 +27,8 @@ struct BuildReport {
     std::uint64_t sourceTriangles = 0;  // of the blocks, before cutting
     std::uint64_t leafTriangles = 0;    // after cutting
     double sourceAreaSquareMetres = 0.0, leafAreaSquareMetres = 0.0;
-    double seconds = 0.0;
+    double seconds = 0.0;  // as the clock on the wall goes
+    BuildPhases phases;
     std::vector<std::string> warnings;
 };
 

@@ -18,6 +18,7 @@ Result<void> checkBlock(const SourceBlock& block) {
     if ((mesh.hasNormals() && mesh.normals.size() != vertices) ||
         (mesh.hasUvs() && mesh.uvs.size() != vertices) ||
         (mesh.hasColours() && mesh.colours.size() != vertices) ||
+        (!mesh.shared.empty() && mesh.shared.size() != vertices) ||
         (!mesh.materials.empty() && mesh.materials.size() != mesh.triangles.size())) {
         return failure("", block.name, "the mesh's attributes do not have one entry per vertex or triangle");
     }

@@ -49,7 +49,7 @@ NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> trian
                       int atlasHeight) {
     NodeMesh result;
     VertexMaker maker;
-    std::vector<std::uint32_t> parts[2];  // textured, untextured
+    std::array<std::vector<std::uint32_t>, 4> parts;  // textured, its skirts, untextured, its skirts
     for (const NodeTriangle& triangle : triangles) {
         const bool textured = triangle.chart != kNone;
         result.flags.alphaMask = result.flags.alphaMask || mesh.surfaces[triangle.surface].alphaMask;
@@ -69,13 +69,16 @@ NodeMesh makeNodeMesh(const BlockMesh& mesh, std::span<const NodeTriangle> trian
             }
             for (int c = 0; c < 4; ++c) vertex.colour[c] = triangle.colours[k][c];
             result.flags.alphaMask = result.flags.alphaMask || vertex.colour[3] != 255;
-            parts[textured ? 0 : 1].push_back(maker.findOrAdd(vertex));
+            parts[(textured ? 0 : 2) + (triangle.skirt ? 1 : 0)].push_back(maker.findOrAdd(vertex));
         }
     }
-    result.texturedTriangles = static_cast<std::uint32_t>(parts[0].size() / 3);
-    result.untexturedTriangles = static_cast<std::uint32_t>(parts[1].size() / 3);
-    result.indices = std::move(parts[0]);
-    result.indices.insert(result.indices.end(), parts[1].begin(), parts[1].end());
+    for (const std::vector<std::uint32_t>& part : parts)
+        result.indices.insert(result.indices.end(), part.begin(), part.end());
+    const auto triangleCount = [](const auto& part) { return static_cast<std::uint32_t>(part.size() / 3); };
+    result.texturedSkirts = triangleCount(parts[1]);
+    result.untexturedSkirts = triangleCount(parts[3]);
+    result.texturedTriangles = triangleCount(parts[0]) + result.texturedSkirts;
+    result.untexturedTriangles = triangleCount(parts[2]) + result.untexturedSkirts;
     result.vertices = std::move(maker.vertices);
     return result;
 }
@@ -87,21 +90,24 @@ void measureNode(const BlockMesh& mesh, std::span<const NodeTriangle> triangles,
     double area = 0.0;
     GridPoint low(kGridSize), high(-1);
     for (const NodeTriangle& t : triangles) {
-        const glm::dvec3 cross = crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y],
-                                         mesh.positions[t.positions.z]);
-        normals += 0.5 * cross;
-        area += 0.5 * glm::length(cross);
         for (int k = 0; k < 3; ++k) {
             low = glm::min(low, mesh.positions[t.positions[k]]);
             high = glm::max(high, mesh.positions[t.positions[k]]);
         }
+        if (t.skirt) continue;
+        const glm::dvec3 cross = crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y],
+                                         mesh.positions[t.positions.z]);
+        normals += 0.5 * cross;
+        area += 0.5 * glm::length(cross);
     }
     node.texturedTriangles = made.texturedTriangles;
     node.untexturedTriangles = made.untexturedTriangles;
+    node.skirtTriangles = made.texturedSkirts + made.untexturedSkirts;
     node.vertices = static_cast<std::uint32_t>(made.vertices.size());
     const double squareMetres = area * step * step;
+    const auto surfaceTriangles = static_cast<double>(triangles.size() - node.skirtTriangles);
     node.areaSquareMetres = static_cast<float>(squareMetres);
-    node.staticBenefit = static_cast<float>(std::sqrt(static_cast<double>(triangles.size()) * squareMetres));
+    node.staticBenefit = static_cast<float>(std::sqrt(surfaceTriangles * squareMetres));
     const double length = glm::length(normals);
     // Directions that cancel out have no average: (0,0,0), and foreshortening then does nothing.
     node.averageNormal = length < 1e-3 * area ? glm::vec3(0.0f) : glm::vec3(normals / length);

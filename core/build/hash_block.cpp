@@ -58,6 +58,7 @@ std::uint64_t hashBlock(const SourceBlock& block) {
     addArray(hasher, block.mesh.colours);
     addArray(hasher, block.mesh.triangles);
     addArray(hasher, block.mesh.materials);
+    addArray(hasher, block.mesh.shared);
     hasher.number(std::uint64_t{block.materials.size()});
     for (const SourceMaterial& material : block.materials) {
         hasher.text(material.name);

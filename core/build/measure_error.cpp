@@ -1,43 +1,115 @@
 #include "build/measure_error.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "build/farthest_from.h"
 
 namespace fb {
+namespace {
 
-double measureError(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
-                    std::span<const NodeTriangle> node, double simplifierError) {
-    std::vector<TriangleCorners> corners;
-    corners.reserve(node.size());
-    for (const NodeTriangle& t : node) {
-        corners.push_back({glm::vec3(mesh.positions[t.positions.x]), glm::vec3(mesh.positions[t.positions.y]),
-                           glm::vec3(mesh.positions[t.positions.z])});
-    }
-    const TriangleTree tree(std::move(corners));
+// Numbers positions from 0 on, anew for each surface, without clearing a table.
+class SurfaceMaker {
+  public:
+    explicit SurfaceMaker(const BlockMesh& mesh) : mesh_(mesh), number_(mesh.positions.size()), stamp_(mesh.positions.size(), 0) {}
 
-    std::vector<std::uint32_t> positions;
-    positions.reserve(piece.size() * 3);
-    for (const MeshTriangle& t : piece) {
-        for (int k = 0; k < 3; ++k) positions.push_back(mesh.wedges[t.wedges[k]].position);
+    MeasuredSurface make(std::vector<glm::uvec3> triangles) {
+        ++current_;
+        std::vector<glm::vec3> points;
+        for (glm::uvec3& t : triangles) {
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t position = t[k];
+                if (stamp_[position] != current_) {
+                    stamp_[position] = current_;
+                    number_[position] = static_cast<std::uint32_t>(points.size());
+                    points.emplace_back(mesh_.positions[position]);
+                }
+                t[k] = number_[position];
+            }
+        }
+        return {std::move(points), std::move(triangles)};
     }
-    std::sort(positions.begin(), positions.end());
-    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
-    const std::size_t stride = (positions.size() + kErrorSamples - 1) / kErrorSamples;
 
-    auto worst = static_cast<float>(simplifierError * simplifierError);
-    ClosestPoint near;
-    for (std::size_t i = 0; i < positions.size(); i += stride) {
-        const glm::vec3 point(mesh.positions[positions[i]]);
-        // Only distances beyond the worst so far matter: the search ends at the first triangle that is close
-        // enough.
-        ClosestPoint start;
-        if (near.triangle != ~std::uint32_t{0}) start = tree.closestOn(near.triangle, point);
-        near = start.squaredDistance <= worst
-                   ? start
-                   : tree.closest(point, start, worst, [](std::uint32_t) { return true; });
-        worst = std::max(worst, near.squaredDistance);
+  private:
+    const BlockMesh& mesh_;
+    std::vector<std::uint32_t> number_, stamp_;
+    std::uint32_t current_ = 0;
+};
+
+// Pieces of some finer level: those of one parent stand together.
+struct Range {
+    std::size_t begin = 0, end = 0;
+};
+
+// Of one level: by piece, its surface, the pieces of the finest inner level that it contains, and how far it lies from
+// the original.
+struct Measured {
+    std::vector<MeasuredSurface> surfaces;
+    std::vector<Range> originals;
+    std::vector<double> backward;
+};
+
+std::vector<Range> childrenOf(const Level& finer, std::size_t pieces) {
+    std::vector<Range> children(pieces);
+    for (std::size_t i = 0; i < finer.pieces.size(); ++i) {
+        Range& range = children[finer.pieces[i].parent];
+        if (range.end == 0) range.begin = i;
+        range.end = i + 1;
     }
-    return std::sqrt(static_cast<double>(worst)) + 1.0;
+    return children;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> measureErrors(const BlockMesh& mesh, const std::vector<BlockLevel>& levels) {
+    std::vector<std::vector<double>> errors(levels.size());
+    for (std::size_t l = 0; l < levels.size(); ++l) errors[l].assign(levels[l].original.pieces.size(), 0.0);
+    if (levels.size() < 2) return errors;
+
+    const std::size_t finest = levels.size() - 2;
+    SurfaceMaker maker(mesh);
+    std::vector<MeasuredSurface> originals;
+    for (std::size_t i = 0; i < levels[finest].original.pieces.size(); ++i)
+        originals.push_back(maker.make(positionsOf(mesh, levels[finest].piece(i))));
+
+    Measured finer;
+    for (std::size_t l = finest + 1; l-- > 0;) {
+        const std::size_t pieces = levels[l].original.pieces.size();
+        const std::vector<Range> children =
+            l == finest ? std::vector<Range>{} : childrenOf(levels[l + 1].original, pieces);
+        Measured here;
+        for (std::size_t i = 0; i < pieces; ++i) {
+            here.surfaces.push_back(maker.make(levels[l].drawn(mesh, i)));
+            const MeasuredSurface& surface = here.surfaces.back();
+            double below = 0.0, behind = 0.0;
+            std::vector<TriangleCorners> drawnBelow;  // what they draw
+            if (l == finest) {
+                here.originals.push_back({i, i + 1});
+            } else {
+                const Range range = children[i];
+                here.originals.push_back(
+                    {finer.originals[range.begin].begin, finer.originals[range.end - 1].end});
+                for (std::size_t c = range.begin; c < range.end; ++c) {
+                    const std::span<const TriangleCorners> part = finer.surfaces[c].tree().triangles();
+                    drawnBelow.insert(drawnBelow.end(), part.begin(), part.end());
+                    behind = std::max(behind, finer.backward[c]);
+                    below = std::max(below, errors[l + 1][c]);
+                }
+            }
+            double forward = 0.0;
+            for (std::size_t o = here.originals[i].begin; o < here.originals[i].end; ++o)
+                forward = farthestFrom(originals[o], surface.tree(), forward);
+            // Only what exceeds `forward` matters.
+            const double left = std::max(0.0, forward - behind);
+            const double backward =
+                behind + (l == finest ? farthestFrom(surface, originals[i].tree(), left)
+                                      : farthestFrom(surface, TriangleTree(std::move(drawnBelow)), left));
+            here.backward.push_back(backward);
+            // Rounding of cuts finer than `finest` and of the distances themselves.
+            errors[l][i] = std::max({forward, backward, below}) + kFarthestUnits;
+        }
+        finer = std::move(here);
+    }
+    return errors;
 }
 
 }  // namespace fb

@@ -1,20 +1,16 @@
-// The geometric error of a node: how far the original may lie from what is drawn.
-// Comes from simplify_level's result, goes into the hierarchy; policies divide it by the distance to get
-// pixels. It is the largest of the simplifier's own estimate and the distances from vertices of the original
-// (all up to kErrorSamples, evenly chosen ones above) to the node's surface, plus one step of the grid: an
-// upper estimate, not a proof. build_block then raises parents to their children.
+// The geometric error of each node: no point of the original lies farther from what is drawn, and no point of what is
+// drawn farther from the original. Comes from make_levels' result, goes into the hierarchy; policies divide it by the
+// distance to get pixels. Bounded from above by branch and bound (farthest_from.h), not sampled. From the original to a
+// node it is measured directly; from a node to the original through its children: the distance to their surface plus
+// the largest of theirs, which is never less than the distance itself.
 #pragma once
 
-#include <span>
-
-#include "build/node_triangles.h"
+#include "build/block_levels.h"
 
 namespace fb {
 
-inline constexpr std::size_t kErrorSamples = 4096;
-
-// In grid units.
-[[nodiscard]] double measureError(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
-                                  std::span<const NodeTriangle> node, double simplifierError);
+// In grid units, by level and piece; never smaller in a parent than in its child; 0 in leaves.
+[[nodiscard]] std::vector<std::vector<double>> measureErrors(const BlockMesh& mesh,
+                                                             const std::vector<BlockLevel>& levels);
 
 }  // namespace fb

@@ -21,6 +21,7 @@ struct NodeTriangle {
     glm::uvec3 wedges{kNone};          // kNone: not taken from the original's corners
     std::uint32_t surface = 0;         // 0 when baked
     bool baked = false;                // gets texels of its own
+    bool skirt = false;                // hangs from a border: see skirts.h
     std::array<glm::vec3, 3> normals;  // unit
     std::array<glm::u8vec4, 3> colours;
     std::uint32_t chart = kNone;        // set by make_charts; kNone: untextured

@@ -93,6 +93,9 @@ class Quantiser {
                 const glm::dvec3 scaled = (block_.mesh.positions[vertex] - mesh.grid.origin) / mesh.grid.step;
                 positions_[vertex] = mesh.findOrAddPosition(GridPoint(glm::round(scaled)));
                 if (block_.mesh.hasNormals()) addNormal(vertex);
+                mesh.onBlockBorder.resize(mesh.positions.size(), 0);
+                if (!block_.mesh.shared.empty() && block_.mesh.shared[vertex] != 0)
+                    mesh.onBlockBorder[positions_[vertex]] = 1;
             }
             triangle.normals[k] = normals_[vertex];
             triangle.wedges[k] = positions_[vertex];

@@ -191,6 +191,7 @@ class LevelSimplifier {
         const SimplifyOutput output = sloppy ? simplifySloppily(task.input) : simplify(task.input);
         SimplifiedPiece result;
         result.welded = seams == Seams::welded;
+        result.clustered = sloppy;
         result.errorGridUnits = output.errorGridUnits;
         result.carriedTriangles = output.carriedTriangles;
         for (const glm::uvec3& t : output.triangles) {

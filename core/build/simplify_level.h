@@ -22,6 +22,7 @@ struct SimplifiedPiece {
     // Triangles of wedges; or, when seams were welded, of positions.
     std::vector<glm::uvec3> triangles;
     bool welded = false;
+    bool clustered = false;  // then not even pieces of one level meet at cuts
     bool stuck = false;
     double errorGridUnits = 0.0;  // the simplifier's estimate, both steps added
     std::uint64_t carriedTriangles = 0;

@@ -35,8 +35,10 @@ class Splitter {
   public:
     Splitter(BlockMesh& mesh, SplitCounters& counters) : mesh_(mesh), counters_(counters) {}
 
-    // Appends the pieces of `part` to `next`.
-    void splitPiece(std::span<const MeshTriangle> part, std::uint32_t parent, int levelFactor, Level& next) {
+    // Appends the pieces of `piece`, number `parent` of `level`, to `next`.
+    void splitPiece(const Level& level, std::uint32_t parent, int levelFactor, Level& next) {
+        const Piece& piece = level.pieces[parent];
+        const std::span<const MeshTriangle> part(level.triangles.data() + piece.begin, piece.size());
         std::vector<MeshTriangle> rest;
         rest.reserve(part.size());
         for (const MeshTriangle& triangle : part)
@@ -52,17 +54,20 @@ class Splitter {
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
         int pieces = 0;
         std::vector<MeshTriangle> upper;
+        std::vector<CutPlane> cuts = piece.cuts;  // of the next slab
         const auto close = [&](std::size_t begin) {
             if (next.triangles.size() == begin) return;
             next.pieces.push_back({parent, static_cast<std::uint32_t>(begin),
-                                   static_cast<std::uint32_t>(next.triangles.size())});
+                                   static_cast<std::uint32_t>(next.triangles.size()), cuts});
             ++pieces;
         };
         for (const std::int32_t plane : cuttingPlanes(low[axis], high[axis], levelFactor)) {
             const std::size_t begin = next.triangles.size();
             upper.clear();
             for (const MeshTriangle& triangle : rest) cut(triangle, axis, plane, next.triangles, upper);
+            cuts.push_back({axis, plane});
             close(begin);
+            cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(piece.cuts.size()), cuts.end() - 1);
             rest.swap(upper);
         }
         const std::size_t begin = next.triangles.size();
@@ -87,7 +92,7 @@ class Splitter {
                 result.triangles.insert(result.triangles.end(), part.begin(), part.end());
             }
             result.pieces.push_back(
-                {piece.parent, begin, static_cast<std::uint32_t>(result.triangles.size())});
+                {piece.parent, begin, static_cast<std::uint32_t>(result.triangles.size()), piece.cuts});
         }
         return result;
     }
@@ -258,11 +263,7 @@ Level splitLevel(BlockMesh& mesh, const Level& level, int levelFactor, SplitCoun
     Splitter splitter(mesh, counters);
     Level next;
     next.triangles.reserve(level.triangles.size() + level.triangles.size() / 8);
-    for (std::size_t i = 0; i < level.pieces.size(); ++i) {
-        const Piece& piece = level.pieces[i];
-        const std::span<const MeshTriangle> part(level.triangles.data() + piece.begin, piece.size());
-        splitter.splitPiece(part, static_cast<std::uint32_t>(i), levelFactor, next);
-    }
+    for (std::uint32_t i = 0; i < level.pieces.size(); ++i) splitter.splitPiece(level, i, levelFactor, next);
     return splitter.refineAll(next);
 }
 

@@ -1,5 +1,5 @@
 // Finds the closest point of a set of triangles: a tree of boxes, built once per node or piece.
-// Used to measure geometric errors and to carry colours from the original to a simplified mesh.
+// Used by farthest_from (geometric errors), by skirts, and to carry colours from the original to a simplified mesh.
 // Deterministic: of equally close triangles the one met first in the tree is taken, and the tree depends on
 // the triangles alone.
 #pragma once
@@ -47,13 +47,16 @@ class TriangleTree {
         return result;
     }
 
-  private:
     struct Node {
         Box3f box;
-        std::uint32_t first =
-            0;  // leaf: into order_; inner node: its second child (the first one follows it)
+        std::uint32_t first = 0;  // leaf: into order(); inner node: its second child (the first one follows it)
         std::uint32_t count = 0;  // 0 for inner nodes
     };
+    // Node 0 is the root; none without triangles.
+    [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+    [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
+
+  private:
     static constexpr std::uint32_t kLeafSize = 4;
 
     std::uint32_t build(std::uint32_t begin, std::uint32_t end);
@@ -64,6 +67,7 @@ class TriangleTree {
 
     std::vector<TriangleCorners> triangles_;
     std::vector<std::uint32_t> order_;
+    std::vector<TriangleCorners> inOrder_;  // triangles_ as order_ has them: those of a leaf lie together
     std::vector<Node> nodes_;
 };
 
@@ -92,8 +96,11 @@ ClosestPoint TriangleTree::closest(const glm::vec3& p, ClosestPoint best, float 
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             if (!accepts(order_[i])) continue;
-            const ClosestPoint candidate = closestOn(order_[i], p);
-            if (candidate.squaredDistance < best.squaredDistance) best = candidate;
+            const ClosestPoint candidate = closestOnTriangle(p, inOrder_[i]);
+            if (candidate.squaredDistance < best.squaredDistance) {
+                best = candidate;
+                best.triangle = order_[i];
+            }
             if (best.squaredDistance <= goodEnough) return best;
         }
     }

@@ -16,7 +16,7 @@ namespace fb {
 namespace {
 
 // Part of the source hash: raise it when the same files give other blocks than before.
-constexpr std::uint64_t kImportVersion = 1;
+constexpr std::uint64_t kImportVersion = 2;
 
 constexpr double kFarMetres = 10000.0, kFarDiagonals = 10.0;
 constexpr std::size_t kMostGroups = 4096, kLeastMedianGroup = 500;
@@ -125,6 +125,7 @@ class Import {
                                "choose larger blocks");
             }
         }
+        markSharedVertices(blocks);
         if (!goesOn("splitting", cleaned_.size())) return stopped();
         info_.sourceHash = hasher_.digest();
         return std::make_unique<BlocksInMemory>(std::move(info_), std::move(blocks));

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/check.h"
+#include "base/hash.h"
 
 namespace fb {
 namespace {
@@ -115,6 +116,28 @@ std::vector<SourceBlock> splitByLabel(const SourceBlock& block, const BlockLabel
             extractor.take(triangles.subspan(starts[l], starts[l + 1] - starts[l]), labels.nameOf(l)));
     }
     return blocks;
+}
+
+void markSharedVertices(std::span<SourceBlock> blocks) {
+    // Positions by their hash: a collision only marks a vertex too many.
+    const auto hashOf = [](const glm::dvec3& p) { return hashBytes(&p, sizeof(p)); };
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> seen;
+    for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+        for (const glm::dvec3& p : blocks[b].mesh.positions) seen.emplace_back(hashOf(p), b);
+    }
+    std::sort(seen.begin(), seen.end());
+    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
+    std::vector<std::uint64_t> inSeveral;
+    for (std::size_t i = 1; i < seen.size(); ++i) {
+        if (seen[i].first == seen[i - 1].first) inSeveral.push_back(seen[i].first);
+    }
+    for (SourceBlock& block : blocks) {
+        SourceMesh& mesh = block.mesh;
+        mesh.shared.assign(mesh.positions.size(), 0);
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            mesh.shared[v] = std::binary_search(inSeveral.begin(), inSeveral.end(), hashOf(mesh.positions[v])) ? 1 : 0;
+        }
+    }
 }
 
 SourceBlock withoutUnused(const SourceBlock& block) {

@@ -137,6 +137,7 @@ double meshArea(const BlockBuild& built, std::size_t node) {
     };
     double area = 0.0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        if (mesh.isSkirt(static_cast<std::uint32_t>(i / 3))) continue;
         area += 0.5 * glm::length(glm::cross(at(i + 1) - at(i), at(i + 2) - at(i)));
     }
     return area;
@@ -161,9 +162,10 @@ std::set<std::array<std::uint32_t, 3>> verticesOnPlane(const BlockBuild& built, 
                                                        double metres) {
     std::set<std::array<std::uint32_t, 3>> result;
     const NodeMesh& mesh = built.nodes[node].mesh;
-    for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
-        if (NodeView{built, node}.at(i).x == metres)
-            result.insert({mesh.vertices[i].x, mesh.vertices[i].y, mesh.vertices[i].z});
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        if (mesh.isSkirt(static_cast<std::uint32_t>(i / 3))) continue;
+        const NodeVertex& v = mesh.vertices[mesh.indices[i]];
+        if (NodeView{built, node}.at(mesh.indices[i]).x == metres) result.insert({v.x, v.y, v.z});
     }
     return result;
 }
