@@ -18,12 +18,12 @@ constexpr std::uint64_t kLosslessTexels = 4'000'000;
 
 class BlockBuilder {
   public:
-    BlockBuilder(const SourceBlock& source, const BuildSettings& settings)
-        : source_(source), settings_(settings) {}
+    BlockBuilder(const SourceBlock& source, const BuildSettings& settings, TextureStore& store)
+        : source_(source), settings_(settings), store_(store) {}
 
     Result<BlockBuild> run() {
         if (Result<void> sound = checkBlock(source_); !sound) return passOn(sound);
-        textures_ = decodeTextures(source_);
+        textures_ = decodeTextures(source_, store_);
         QuantisedBlock quantised = quantiseBlock(source_, textures_);
         reportSource(quantised);
         mesh_ = std::move(quantised.mesh);
@@ -33,7 +33,6 @@ class BlockBuilder {
             warn("block " + source_.name + " has no triangles and is left out");
             return std::move(result_);
         }
-        fillUnusedTexels(textures_, mesh_, level.triangles);
         result_.block.grid = mesh_.grid;
         level.pieces.push_back({0, 0, static_cast<std::uint32_t>(level.triangles.size())});
         if (Result<void> built = buildLevels(std::move(level)); !built) return passOn(built);
@@ -207,6 +206,7 @@ class BlockBuilder {
 
     const SourceBlock& source_;
     const BuildSettings& settings_;
+    TextureStore& store_;
     BlockTextures textures_;
     BlockMesh mesh_;
     BlockBuild result_;
@@ -215,8 +215,8 @@ class BlockBuilder {
 
 }  // namespace
 
-Result<BlockBuild> buildBlock(const SourceBlock& source, const BuildSettings& settings) {
-    return BlockBuilder(source, settings).run();
+Result<BlockBuild> buildBlock(const SourceBlock& source, const BuildSettings& settings, TextureStore& store) {
+    return BlockBuilder(source, settings, store).run();
 }
 
 }  // namespace fb

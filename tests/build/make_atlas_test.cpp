@@ -32,7 +32,6 @@ struct World {
     explicit World(const SourceBlock& block) : textures(decodeTextures(block)) {
         QuantisedBlock quantised = quantiseBlock(block, textures);
         mesh = std::move(quantised.mesh);
-        fillUnusedTexels(textures, mesh, quantised.triangles);
         triangles = dressOriginal(mesh, quantised.triangles);
     }
     Atlas atlas(double scale, int maxSide = 4096) {
