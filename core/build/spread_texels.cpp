@@ -80,12 +80,17 @@ class RingGrower {
     }
 
     void copyTexel(const GrowingTile& tile, int x, int y, const glm::ivec2& from) const {
-        const int sx = x + from.x, sy = y + from.y;
-        const auto column = static_cast<std::size_t>(1 + (sx >= kTileSide) - (sx < 0));
-        const auto row = static_cast<std::size_t>(1 + (sy >= kTileSide) - (sy < 0));
-        const std::uint8_t* const source =
-            places_.texel(tile.tiles[row][column], (sx + kTileSide) % kTileSide, (sy + kTileSide) % kTileSide);
         std::uint8_t* const target = places_.texel(tile.tile, x, y);
+        const int sx = x + from.x, sy = y + from.y;
+        const std::uint8_t* source = nullptr;
+        if (sx >= 0 && sy >= 0 && sx < kTileSide && sy < kTileSide) {
+            source = places_.texel(tile.tile, sx, sy);
+        } else {
+            const auto column = static_cast<std::size_t>(1 + (sx >= kTileSide) - (sx < 0));
+            const auto row = static_cast<std::size_t>(1 + (sy >= kTileSide) - (sy < 0));
+            source = places_.texel(tile.tiles[row][column], (sx + kTileSide) % kTileSide,
+                                   (sy + kTileSide) % kTileSide);
+        }
         for (int c = first_; c < end_; ++c) target[c] = source[c];
     }
 
@@ -162,26 +167,31 @@ class FarFiller {
     }
 
   private:
-    static constexpr int kCells = kTileSide / 2;  // a side
+    static constexpr int kCellSide = 8;  // texels; as the blocks of JPEG
+    static constexpr int kCells = kTileSide / kCellSide;  // a side
 
-    // Of 2 x 2 texels.
     [[nodiscard]] std::vector<Cell> cellsOf(std::uint32_t tile) const {
-        std::vector<Cell> cells(static_cast<std::size_t>(kCells) * kCells);
-        for (int y = 0; y < kTileSide; y += 2) {
-            const auto line = static_cast<std::size_t>(y);
-            const std::uint64_t upper = known_[tile].rows[line], lower = known_[tile].rows[line + 1];
-            if ((upper | lower) == 0) continue;
-            for (int x = 0; x < kTileSide; x += 2) {
-                std::array<Cell, 4> four;
-                for (int k = 0; k < 4; ++k) {
-                    if (((k < 2 ? upper : lower) >> (x + k % 2) & 1) == 0) continue;
-                    Cell& cell = four[static_cast<std::size_t>(k)];
-                    const std::uint8_t* const texel = places_.texel(tile, x + k % 2, y + k / 2);
-                    for (int c = first_; c < end_; ++c) cell.colour[static_cast<std::size_t>(c)] = texel[c];
-                    cell.known = true;
-                }
-                cells[static_cast<std::size_t>(y / 2 * kCells + x / 2)] = meanOf(four);
+        struct Sum {
+            std::array<unsigned, 4> colour{};
+            unsigned count = 0;
+        };
+        std::array<Sum, static_cast<std::size_t>(kCells) * kCells> sums;
+        for (int y = 0; y < kTileSide; ++y) {
+            for (std::uint64_t rest = known_[tile].rows[static_cast<std::size_t>(y)]; rest != 0; rest &= rest - 1) {
+                const int x = std::countr_zero(rest);
+                Sum& sum = sums[static_cast<std::size_t>(y / kCellSide * kCells + x / kCellSide)];
+                const std::uint8_t* const texel = places_.texel(tile, x, y);
+                for (int c = first_; c < end_; ++c) sum.colour[static_cast<std::size_t>(c)] += texel[c];
+                ++sum.count;
             }
+        }
+        std::vector<Cell> cells(sums.size());
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            const Sum& sum = sums[i];
+            if (sum.count == 0) continue;
+            cells[i].known = true;
+            for (std::size_t c = 0; c < 4; ++c)
+                cells[i].colour[c] = static_cast<std::uint8_t>((sum.colour[c] + sum.count / 2) / sum.count);
         }
         return cells;
     }
@@ -192,7 +202,7 @@ class FarFiller {
             for (std::uint64_t rest = tile.inside.rows[line] & ~known_[tile.tile].rows[line]; rest != 0;
                  rest &= rest - 1) {
                 const int x = std::countr_zero(rest);
-                const Cell& cell = cells[static_cast<std::size_t>(y / 2 * kCells + x / 2)];
+                const Cell& cell = cells[static_cast<std::size_t>(y / kCellSide * kCells + x / kCellSide)];
                 std::uint8_t* const texel = places_.texel(tile.tile, x, y);
                 for (int c = first_; c < end_; ++c) texel[c] = cell.colour[static_cast<std::size_t>(c)];
             }
