@@ -80,7 +80,7 @@ struct Dressed {
     }
 };
 
-// The same part of a whole picture, as colours; `repeat` wraps around.
+// The same part of a whole picture, as colours; it wraps around.
 std::vector<std::uint8_t> part(const Image& image, int left, int top, int side, int channels) {
     std::vector<std::uint8_t> texels;
     for (int y = 0; y < side; ++y) {
@@ -291,7 +291,9 @@ RC_GTEST_PROP(TextureTiles, HalveLikeTheWholePicture, (std::uint64_t seed)) {
             if (there) RC_ASSERT(half.tileAt(x / kTileSide, y / kTileSide) != kNoTile);
             if (!there) continue;
             const int right = std::min(2 * x + 1, width - 1), low = std::min(2 * y + 1, height - 1);
-            const auto at = [&](int px, int py) { return static_cast<int>(pixels[static_cast<std::size_t>(py * width + px)]); };
+            const auto at = [&](int px, int py) -> int {
+                return pixels[static_cast<std::size_t>(py * width + px)];
+            };
             const int sum = at(2 * x, 2 * y) + at(right, 2 * y) + at(2 * x, low) + at(right, low);
             RC_ASSERT(*half.texel(x, y) == (sum + 2) / 4);
         }
@@ -304,7 +306,9 @@ TEST(TextureTiles, AreSampledNearbyWhereATileIsNotThere) {
     addSquare(block, 0, {64, 64}, 64, {256, 256});
     BlockTextures textures = decodeTextures(block);
     ASSERT_EQ(textures.tiles, 1u);
-    const auto sample = [&](double x, double y) { return sampleTexture(*textures.textures[0], glm::dvec2(x, y) / 256.0, 1.0f); };
+    const auto sample = [&](double x, double y) {
+        return sampleTexture(*textures.textures[0], glm::dvec2(x, y) / 256.0, 1.0f);
+    };
     EXPECT_EQ(sample(100.5, 90.5), glm::vec4(100, 90, 0, 255));
     EXPECT_EQ(sample(128.0, 90.5), glm::vec4(127, 90, 0, 255));   // at the tile's edge
     EXPECT_EQ(sample(250.5, 250.5), glm::vec4(127, 127, 0, 255));  // two tiles away

@@ -37,7 +37,8 @@ bool writePicture(const std::filesystem::path& file, const PictureKind& kind, co
     for (int y = 0; y < kind.height; ++y) {
         for (int x = 0; x < kind.width; ++x) {
             for (int c = 0; c < kind.channels; ++c) {
-                bytes.push_back(static_cast<std::uint8_t>((x * 7 + y * 13 + (x / 64) * 31 + (y / 64) * 57 + c * 90) % 251));
+                const int tiles = (x / 64) * 31 + (y / 64) * 57;
+                bytes.push_back(static_cast<std::uint8_t>((x * 7 + y * 13 + tiles + c * 90) % 251));
             }
         }
     }
