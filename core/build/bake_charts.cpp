@@ -12,6 +12,8 @@ namespace {
 constexpr double kLeastCosine = 0.5;
 // Texels this far outside a triangle are baked with it, so that filtering at its edge finds them.
 constexpr float kMargin = 1.5f;
+// Texels a side whose closest points are searched together.
+constexpr int kBakeBlock = 4;
 
 using Corners2 = std::array<glm::vec2, 3>;
 
@@ -170,6 +172,91 @@ class ChartGrower {
     std::vector<std::uint64_t> claimed_;
 };
 
+struct BakedTexel {
+    std::uint32_t owner;  // triangle
+    glm::ivec2 at;        // in the chart
+};
+
+// Bakes texels that lie close together, so that those of one triangle need one search of the original.
+class BlockBaker {
+  public:
+    BlockBaker(std::span<const NodeTriangle> triangles, const BlockMesh& mesh, const PieceSurface& surface,
+               double texelsPerGridUnit)
+        : triangles_(triangles), mesh_(mesh), surface_(surface) {
+        // A texel is the mean of several points of the original: averaging in the texture instead, by its coarser
+        // levels, would mix in what lies beside a chart there. One point for two texels of the original, no more
+        // than nine.
+        const double texelsAcross = surface.texelsPerGridUnit() / texelsPerGridUnit;
+        across_ = std::clamp(static_cast<int>(std::ceil(0.5 * texelsAcross)), 1, 3);
+        side_ = 1.0 / (texelsPerGridUnit * across_);
+    }
+
+    void bake(std::vector<BakedTexel>& texels, const Chart& chart, const BakeTarget& into) {
+        std::stable_sort(texels.begin(), texels.end(),
+                         [](const BakedTexel& a, const BakedTexel& b) { return a.owner < b.owner; });
+        for (std::size_t begin = 0, end = 0; begin < texels.size(); begin = end) {
+            while (end < texels.size() && texels[end].owner == texels[begin].owner) ++end;
+            bakeOwned({texels.data() + begin, end - begin}, chart, into);
+        }
+    }
+
+  private:
+    void bakeOwned(std::span<const BakedTexel> texels, const Chart& chart, const BakeTarget& into) {
+        const NodeTriangle& t = triangles_[texels[0].owner];
+        findPoints(texels, t);
+        Box3f box;
+        for (const glm::vec3& point : points_) box.grow(point);
+        const glm::vec3 centre = 0.5f * (box.min + box.max);
+        float reach2 = 0.0f;
+        for (const glm::vec3& point : points_) reach2 = std::max(reach2, glm::dot(point - centre, point - centre));
+        surface_.findCandidates(centre, std::sqrt(reach2), glm::vec3(normalOf(mesh_, t)), near_, candidates_);
+        const auto channels = static_cast<std::size_t>(into.atlas.channels);
+        const auto count = static_cast<unsigned>(across_ * across_);
+        auto point = points_.begin();
+        for (const BakedTexel& texel : texels) {
+            glm::uvec4 sum(0u);
+            for (unsigned i = 0; i < count; ++i) {
+                const PieceSurface::Hit hit = surface_.closestOf(candidates_, *point++);
+                near_ = hit.triangle;
+                sum += glm::uvec4(surface_.colourAt(hit, side_));
+            }
+            const std::size_t at = static_cast<std::size_t>(chart.y + texel.at.y) * into.atlas.width +
+                                   static_cast<std::size_t>(chart.x + texel.at.x);
+            into.known[at] = 1;
+            for (std::size_t c = 0; c < channels; ++c) {
+                into.atlas.pixels[at * channels + c] =
+                    static_cast<std::uint8_t>((sum[static_cast<int>(c)] + count / 2) / count);
+            }
+        }
+    }
+
+    // On the triangle, across_ * across_ for each texel.
+    void findPoints(std::span<const BakedTexel> texels, const NodeTriangle& t) {
+        const TriangleCorners flat = {glm::vec3(t.texels[0], 0), glm::vec3(t.texels[1], 0),
+                                      glm::vec3(t.texels[2], 0)};
+        points_.clear();
+        for (const BakedTexel& texel : texels) {
+            for (int i = 0; i < across_ * across_; ++i) {
+                const glm::vec2 in(static_cast<float>(i % across_) + 0.5f, static_cast<float>(i / across_) + 0.5f);
+                const glm::vec2 at = glm::vec2(texel.at) + in / static_cast<float>(across_);
+                const glm::vec3 weights = closestOnTriangle(glm::vec3(at, 0.0f), flat).weights;
+                glm::vec3 point(0.0f);
+                for (int k = 0; k < 3; ++k) point += glm::vec3(mesh_.positions[t.positions[k]]) * weights[k];
+                points_.push_back(point);
+            }
+        }
+    }
+
+    std::span<const NodeTriangle> triangles_;
+    const BlockMesh& mesh_;
+    const PieceSurface& surface_;
+    int across_ = 1;
+    double side_ = 0.0;
+    std::uint32_t near_ = kNone;
+    std::vector<glm::vec3> points_;
+    std::vector<std::uint32_t> candidates_;
+};
+
 }  // namespace
 
 void addBakedCharts(std::span<NodeTriangle> triangles, const BlockMesh& mesh, double texelsPerGridUnit,
@@ -198,42 +285,18 @@ void bakeChart(const Chart& chart, std::span<const NodeTriangle> triangles, cons
             if (inside > texel.inside) texel = {inside, i};
         });
     }
-    // A texel is the mean of several points of the original: averaging in the texture instead, by its coarser
-    // levels, would mix in what lies beside a chart there. One point for two texels of the original, no more
-    // than nine.
-    const double texelsAcross = surface.texelsPerGridUnit() / texelsPerGridUnit;
-    const int points = std::clamp(static_cast<int>(std::ceil(0.5 * texelsAcross)), 1, 3);
-    const double side = 1.0 / (texelsPerGridUnit * points);
-    const auto channels = static_cast<std::size_t>(into.atlas.channels);
-    std::uint32_t near = kNone;
-    for (int y = 0; y < chart.height; ++y) {
-        for (int x = 0; x < chart.width; ++x) {
-            const std::uint32_t owner = owners[static_cast<std::size_t>(y) * chart.width + x].triangle;
-            if (owner == kNone) continue;
-            const NodeTriangle& t = triangles[owner];
-            const glm::vec3 normal(normalOf(mesh, t));
-            const TriangleCorners flat = {glm::vec3(t.texels[0], 0), glm::vec3(t.texels[1], 0),
-                                          glm::vec3(t.texels[2], 0)};
-            glm::uvec4 sum(0u);
-            for (int i = 0; i < points * points; ++i) {
-                const glm::vec2 in(static_cast<float>(i % points) + 0.5f,
-                                   static_cast<float>(i / points) + 0.5f);
-                const glm::vec2 at =
-                    glm::vec2(static_cast<float>(x), static_cast<float>(y)) + in / static_cast<float>(points);
-                const glm::vec3 weights = closestOnTriangle(glm::vec3(at, 0.0f), flat).weights;
-                glm::vec3 point(0.0f);
-                for (int k = 0; k < 3; ++k) point += glm::vec3(mesh.positions[t.positions[k]]) * weights[k];
-                const PieceSurface::Hit hit = surface.closest(point, normal, near);
-                near = hit.triangle;
-                sum += glm::uvec4(surface.colourAt(hit, side));
+    BlockBaker baker(triangles, mesh, surface, texelsPerGridUnit);
+    std::vector<BakedTexel> block;
+    for (int top = 0; top < chart.height; top += kBakeBlock) {
+        for (int left = 0; left < chart.width; left += kBakeBlock) {
+            block.clear();
+            for (int y = top; y < std::min(top + kBakeBlock, chart.height); ++y) {
+                for (int x = left; x < std::min(left + kBakeBlock, chart.width); ++x) {
+                    const std::uint32_t owner = owners[static_cast<std::size_t>(y) * chart.width + x].triangle;
+                    if (owner != kNone) block.push_back({owner, {x, y}});
+                }
             }
-            const std::size_t at = static_cast<std::size_t>(chart.y + y) * into.atlas.width + (chart.x + x);
-            into.known[at] = 1;
-            const auto count = static_cast<unsigned>(points * points);
-            for (std::size_t c = 0; c < channels; ++c) {
-                into.atlas.pixels[at * channels + c] =
-                    static_cast<std::uint8_t>((sum[static_cast<int>(c)] + count / 2) / count);
-            }
+            baker.bake(block, chart, into);
         }
     }
 }

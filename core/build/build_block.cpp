@@ -18,14 +18,14 @@ constexpr std::uint64_t kLosslessTexels = 4'000'000;
 
 class BlockBuilder {
   public:
-    BlockBuilder(const SourceBlock& source, const BuildSettings& settings)
-        : source_(source), settings_(settings) {}
+    BlockBuilder(const SourceBlock& source, const BuildSettings& settings, TextureStore& store)
+        : source_(source), settings_(settings), store_(store) {}
 
     Result<BlockBuild> run() {
         if (Result<void> sound = checkBlock(source_); !sound) return passOn(sound);
         BuildPhases& phases = result_.report.phases;
         phaseStart_ = SteadyClock::now();
-        textures_ = decodeTextures(source_);
+        textures_ = decodeTextures(source_, store_);
         QuantisedBlock quantised = quantiseBlock(source_, textures_);
         reportSource(quantised);
         mesh_ = std::move(quantised.mesh);
@@ -35,7 +35,6 @@ class BlockBuilder {
             warn("block " + source_.name + " has no triangles and is left out");
             return std::move(result_);
         }
-        fillUnusedTexels(textures_, mesh_, root.triangles);
         phases.textures += secondsSinceLap(phaseStart_);
         result_.block.grid = mesh_.grid;
         root.pieces.push_back({0, 0, static_cast<std::uint32_t>(root.triangles.size())});
@@ -202,6 +201,7 @@ class BlockBuilder {
 
     const SourceBlock& source_;
     const BuildSettings& settings_;
+    TextureStore& store_;
     BlockTextures textures_;
     BlockMesh mesh_;
     BlockBuild result_;
@@ -211,8 +211,8 @@ class BlockBuilder {
 
 }  // namespace
 
-Result<BlockBuild> buildBlock(const SourceBlock& source, const BuildSettings& settings) {
-    return BlockBuilder(source, settings).run();
+Result<BlockBuild> buildBlock(const SourceBlock& source, const BuildSettings& settings, TextureStore& store) {
+    return BlockBuilder(source, settings, store).run();
 }
 
 }  // namespace fb

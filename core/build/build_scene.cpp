@@ -26,6 +26,7 @@ struct SceneTask {
     const BuildSettings& settings;
     const std::filesystem::path& folder;
     std::uint64_t settingsHash;
+    TextureStore& textures;
 };
 
 double areaOf(const SourceMesh& mesh) {
@@ -71,14 +72,14 @@ Result<void> makeBlock(const SceneTask& task, std::uint32_t index, FinishedBlock
     SteadyClock::time_point start = SteadyClock::now();
     Result<SourceBlock> source = task.source.load(index);
     if (!source) return passOn(source);
-    const std::uint64_t blockHash = hashBlock(*source);
+    const std::uint64_t blockHash = hashBlock(*source, task.textures);
     const double loadSeconds = secondsSinceLap(start);
     if (std::optional<BuiltBlock> reused = reusePack(task.folder, index, task.settingsHash, blockHash)) {
         into.report = reportReused(*source, *reused);
         into.block = std::move(*reused);
         return {};
     }
-    Result<BlockBuild> built = buildBlock(*source, task.settings);
+    Result<BlockBuild> built = buildBlock(*source, task.settings, task.textures);
     if (!built) return passOn(built);
     start = SteadyClock::now();
     if (!built->nodes.empty()) {
@@ -168,13 +169,15 @@ void BuildPhases::add(const BuildPhases& other) {
 }
 
 Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& settings,
-                               const std::filesystem::path& folder, const Progress& progress) {
+                               const std::filesystem::path& folder, const Progress& progress,
+                               std::uint64_t textureCacheBytes) {
     const SteadyClock::time_point start = SteadyClock::now();
     const std::size_t count = source.blockCount();
     if (Result<void> made = makeFolder(folder); !made) return passOn(made);
     Result<FolderLock> lock = FolderLock::take(folder);
     if (!lock) return passOn(lock);
-    const SceneTask task{source, settings, folder, hashBuildSettings(settings)};
+    TextureStore textures(textureCacheBytes);
+    const SceneTask task{source, settings, folder, hashBuildSettings(settings), textures};
     std::vector<FinishedBlock> finished(count);
     ProgressGate gate(progress, std::max<std::size_t>(count, 1));
     gate.tell("build blocks", 0.0);
@@ -212,6 +215,7 @@ Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& s
         return passOn(written);
     }
     gate.tell("write scene", 1.0);
+    report.textures = textures.counts();
     report.seconds = millisecondsSince(start) / 1000.0;
     return report;
 }

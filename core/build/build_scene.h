@@ -7,6 +7,7 @@
 
 #include "base/result.h"
 #include "import/source_scene.h"
+#include "import/texture_store.h"
 #include "scenefile/scene.h"
 #include "settings/settings.h"
 
@@ -29,6 +30,7 @@ struct BuildReport {
     double sourceAreaSquareMetres = 0.0, leafAreaSquareMetres = 0.0;
     double seconds = 0.0;  // as the clock on the wall goes
     BuildPhases phases;
+    TextureStoreCounts textures;
     std::vector<std::string> warnings;
 };
 
@@ -38,11 +40,16 @@ struct BlockBuild {
     std::vector<NodeData> nodes;  // same order as block.nodes
     BuildReport report;
 };
-[[nodiscard]] Result<BlockBuild> buildBlock(const SourceBlock& source, const BuildSettings& settings);
+[[nodiscard]] Result<BlockBuild> buildBlock(const SourceBlock& source, const BuildSettings& settings,
+                                            TextureStore& store);
 
-// Builds every block of `source` into `folder`. Errors: folder not writable, a block that cannot be loaded,
-// stopped by `progress`.
+// Decoded texels that are kept for the blocks to come; beyond, they are decoded again.
+inline constexpr std::uint64_t kTextureCacheBytes = std::uint64_t{1} << 30;
+
+// Builds every block of `source` into `folder`, the same for any number of threads and any size of the cache. Errors:
+// folder not writable, a block that cannot be loaded, stopped by `progress`.
 [[nodiscard]] Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& settings,
-                                             const std::filesystem::path& folder, const Progress& progress);
+                                             const std::filesystem::path& folder, const Progress& progress,
+                                             std::uint64_t textureCacheBytes = kTextureCacheBytes);
 
 }  // namespace fb

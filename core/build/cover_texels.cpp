@@ -15,30 +15,31 @@ std::int64_t endTexel(double high, std::int64_t first) {
     return std::max(first + 1, static_cast<std::int64_t>(std::ceil(high - kTexelTolerance)));
 }
 
-void markSpan(std::int64_t first, std::int64_t end, std::int64_t row, int width, int height,
-              std::vector<std::uint8_t>& shown) {
-    const auto wrap = [](std::int64_t at, int size) { return ((at % size) + size) % size; };
-    std::uint8_t* line =
-        shown.data() + static_cast<std::size_t>(wrap(row, height)) * static_cast<std::size_t>(width);
+void visitSpan(std::int64_t first, std::int64_t end, std::int64_t row, int width, int height,
+               const TexelSpanVisitor& visit) {
+    const auto wrap = [](std::int64_t at, int size) {
+        return static_cast<int>(((at % size) + size) % size);
+    };
+    const int line = wrap(row, height);
     if (end - first >= width) {
-        std::fill_n(line, width, std::uint8_t{1});
+        visit(line, 0, width);
         return;
     }
-    const std::int64_t from = wrap(first, width);
+    const int from = wrap(first, width);
     const std::int64_t to = from + (end - first);
-    std::fill(line + from, line + std::min<std::int64_t>(to, width), std::uint8_t{1});
-    if (to > width) std::fill(line, line + (to - width), std::uint8_t{1});
+    visit(line, from, static_cast<int>(std::min<std::int64_t>(to, width)));
+    if (to > width) visit(line, 0, static_cast<int>(to - width));
 }
 
 }  // namespace
 
 void coverTexels(const std::array<glm::dvec2, 3>& corners, int width, int height,
-                 std::vector<std::uint8_t>& shown) {
+                 const TexelSpanVisitor& visit) {
     const glm::dvec2 low = glm::min(corners[0], glm::min(corners[1], corners[2]));
     const glm::dvec2 high = glm::max(corners[0], glm::max(corners[1], corners[2]));
     // Repeats many times: shows all of it.
     if (high.x - low.x > 16.0 * width || high.y - low.y > 16.0 * height) {
-        std::fill(shown.begin(), shown.end(), std::uint8_t{1});
+        for (int row = 0; row < height; ++row) visit(row, 0, width);
         return;
     }
     const std::int64_t firstRow = firstTexel(low.y);
@@ -65,7 +66,7 @@ void coverTexels(const std::array<glm::dvec2, 3>& corners, int width, int height
         }
         if (left > right) continue;
         const std::int64_t first = firstTexel(left);
-        markSpan(first, endTexel(right, first), row, width, height, shown);
+        visitSpan(first, endTexel(right, first), row, width, height, visit);
     }
 }
 

@@ -1,11 +1,11 @@
-// Marks the texels that a triangle touches: every texel whose square it overlaps by more than
+// Finds the texels that a triangle touches: every texel whose square it overlaps by more than
 // kTexelTolerance.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
-#include <vector>
 
 namespace fb {
 
@@ -13,9 +13,11 @@ namespace fb {
 // texels).
 inline constexpr double kTexelTolerance = 1.0 / 64.0;
 
-// Corners in texels; they may reach beyond the picture, which then repeats. `shown` has width * height
-// entries.
+// Texels [begin, end) of a row, inside the picture.
+using TexelSpanVisitor = std::function<void(int row, int begin, int end)>;
+
+// Corners in texels; they may reach beyond the picture, which then repeats. Spans may overlap.
 void coverTexels(const std::array<glm::dvec2, 3>& corners, int width, int height,
-                 std::vector<std::uint8_t>& shown);
+                 const TexelSpanVisitor& visit);
 
 }  // namespace fb

@@ -8,7 +8,8 @@
 namespace fb {
 namespace {
 
-constexpr int kDeepest = 64;
+// After so many cuts a part is 256 times smaller, and what it adds at most is taken for what it adds: work is bounded.
+constexpr int kDeepest = 16;
 constexpr int kFirstCuts = 8;
 constexpr float kFarSide = 3.0f;  // so many times as long counts a side that leads over several creases
 constexpr float kTouching = 2.0f;  // grid units

@@ -1,14 +1,10 @@
 #include "build/hash_block.h"
 
-#include "base/file_io.h"
 #include "base/hash.h"
 #include "settings/knob_table.h"
 
 namespace fb {
 namespace {
-
-// A texture file larger than this is not read to name the block: its path and size do.
-constexpr std::uint64_t kHashedFileBytes = std::uint64_t{1} << 30;
 
 template <class T>
 void addArray(Hasher& hasher, const std::vector<T>& values) {
@@ -16,15 +12,11 @@ void addArray(Hasher& hasher, const std::vector<T>& values) {
     if (!values.empty()) hasher.bytes(values.data(), values.size() * sizeof(T));
 }
 
-void addTexture(Hasher& hasher, const SourceTexture& texture) {
+void addTexture(Hasher& hasher, const SourceTexture& texture, TextureStore& store) {
     hasher.text(texture.name);
     if (!texture.file.empty()) {
         hasher.text(texture.file.string());
-        if (const Result<std::vector<std::uint8_t>> bytes = readFile(texture.file, kHashedFileBytes)) {
-            addArray(hasher, *bytes);
-        } else {
-            hasher.text(bytes.error().oneLine());
-        }
+        hasher.number(store.hashFile(texture.file));
         return;
     }
     addArray(hasher, texture.encoded);
@@ -49,7 +41,7 @@ std::uint64_t hashBuildSettings(const BuildSettings& build) {
     return hasher.digest();
 }
 
-std::uint64_t hashBlock(const SourceBlock& block) {
+std::uint64_t hashBlock(const SourceBlock& block, TextureStore& store) {
     Hasher hasher;
     hasher.text(block.name);
     addArray(hasher, block.mesh.positions);
@@ -67,7 +59,7 @@ std::uint64_t hashBlock(const SourceBlock& block) {
         hasher.number(std::uint64_t{material.alphaMask ? 1u : 0u});
     }
     hasher.number(std::uint64_t{block.textures.size()});
-    for (const SourceTexture& texture : block.textures) addTexture(hasher, texture);
+    for (const SourceTexture& texture : block.textures) addTexture(hasher, texture, store);
     return hasher.digest();
 }
 

@@ -2,7 +2,7 @@
 // still hold.
 #pragma once
 
-#include "import/source_scene.h"
+#include "import/texture_store.h"
 #include "settings/settings.h"
 
 namespace fb {
@@ -13,7 +13,7 @@ inline constexpr std::uint64_t kBuilderVersion = 6;
 // Of every knob of the group "build", and of kBuilderVersion.
 [[nodiscard]] std::uint64_t hashBuildSettings(const BuildSettings& settings);
 
-// Of meshes, materials and textures; texture files count with what is in them.
-[[nodiscard]] std::uint64_t hashBlock(const SourceBlock& block);
+// Of meshes, materials and textures; texture files count with what is in them, read once a store.
+[[nodiscard]] std::uint64_t hashBlock(const SourceBlock& block, TextureStore& store);
 
 }  // namespace fb

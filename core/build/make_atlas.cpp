@@ -6,6 +6,7 @@
 #include "base/check.h"
 #include "build/bake_charts.h"
 #include "build/pack_atlas.h"
+#include "build/spread_texels.h"
 
 namespace fb {
 namespace {
@@ -83,20 +84,8 @@ class AtlasMaker {
     void copyChart(const Chart& chart, Image& atlas, std::vector<std::uint8_t>& known) {
         const Surface& surface = task_.mesh.surfaces[chart.surface];
         TextureLevels& texture = *task_.textures.textures[static_cast<std::size_t>(surface.texture)];
-        const double across = chart.rect.width / chart.width, down = chart.rect.height / chart.height;
-        // From a coarser level where at least two of its texels still go into one of the atlas. A chart that
-        // repeats could be of any size: there the larger ratio counts, to bound the work.
-        double ratio = chart.edge == EdgeMode::repeat ? std::max(across, down) : std::min(across, down);
-        int level = 0;
-        for (; ratio >= 4.0; ratio *= 0.5) ++level;
-        const Image& source = texture.level(level);
-        const double sx = static_cast<double>(source.width) / texture.width();
-        const double sy = static_cast<double>(source.height) / texture.height();
-        TexelRect rect{chart.rect.x * sx, chart.rect.y * sy, chart.rect.width * sx, chart.rect.height * sy};
-        if (source.width == 1 && source.height == 1) {
-            rect = {0.0, 0.0, static_cast<double>(chart.width), static_cast<double>(chart.height)};
-        }
-        resampleArea(source, rect, chart.edge, {atlas, chart.x, chart.y, chart.width, chart.height, kGutter});
+        resampleTexture(texture, chart.rect, chart.edge,
+                        {atlas, chart.x, chart.y, chart.width, chart.height, kGutter});
         for (int y = std::max(chart.y - kGutter, 0);
              y < std::min(chart.y + chart.height + kGutter, atlas.height); ++y) {
             for (int x = std::max(chart.x - kGutter, 0);

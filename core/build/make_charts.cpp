@@ -4,106 +4,14 @@
 #include <cmath>
 #include <numeric>
 
-#include "build/cover_texels.h"
+#include "build/find_islands.h"
 
 namespace fb {
 namespace {
 
-struct Island {
-    std::uint32_t surface = 0;
-    glm::dvec2 low{0.0},
-        high{0.0};          // source texels, moved by whole repeats so that `low` lies in the picture
-    glm::dvec2 shift{0.0};  // what was subtracted
-};
-
-class Joiner {
-  public:
-    explicit Joiner(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-    // The lower number stands for both.
-    std::uint32_t join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-        return std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
-
-glm::dvec2 textureSize(const Surface& surface, const BlockTextures& textures) {
-    const TextureLevels& texture = *textures.textures[static_cast<std::size_t>(surface.texture)];
-    return {texture.width(), texture.height()};
-}
-
-// Sets each textured triangle's chart to the number of its island.
-std::vector<Island> findIslands(std::span<NodeTriangle> triangles, const BlockMesh& mesh,
-                                const BlockTextures& textures) {
-    Joiner joiner(triangles.size());
-    std::vector<std::uint32_t> wedges;  // of textured triangles
-    for (const NodeTriangle& t : triangles) {
-        if (t.surface != 0) wedges.insert(wedges.end(), {t.wedges.x, t.wedges.y, t.wedges.z});
-    }
-    std::sort(wedges.begin(), wedges.end());
-    wedges.erase(std::unique(wedges.begin(), wedges.end()), wedges.end());
-    std::vector<std::uint32_t> first(wedges.size(), kNone);  // triangle that uses the wedge
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        if (triangles[i].surface == 0) continue;
-        for (int k = 0; k < 3; ++k) {
-            const auto at = static_cast<std::size_t>(
-                std::lower_bound(wedges.begin(), wedges.end(), triangles[i].wedges[k]) - wedges.begin());
-            first[at] = first[at] == kNone ? i : joiner.join(first[at], i);
-        }
-    }
-    std::vector<Island> islands;
-    std::vector<std::uint32_t> islandOf(triangles.size(), kNone);
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        NodeTriangle& t = triangles[i];
-        if (t.surface == 0) continue;
-        std::uint32_t& island = islandOf[joiner.find(i)];
-        const glm::dvec2 size = textureSize(mesh.surfaces[t.surface], textures);
-        if (island == kNone) {
-            island = static_cast<std::uint32_t>(islands.size());
-            const glm::dvec2 start = glm::dvec2(mesh.wedges[t.wedges.x].uv) * size;
-            islands.push_back({t.surface, start, start, {}});
-        }
-        t.chart = island;
-        for (int k = 0; k < 3; ++k) {
-            const glm::dvec2 at = glm::dvec2(mesh.wedges[t.wedges[k]].uv) * size;
-            islands[island].low = glm::min(islands[island].low, at);
-            islands[island].high = glm::max(islands[island].high, at);
-        }
-    }
-    for (Island& island : islands) {
-        const glm::dvec2 size = textureSize(mesh.surfaces[island.surface], textures);
-        island.shift = glm::floor((island.low + kTexelTolerance) / size) * size;
-        island.low -= island.shift;
-        island.high -= island.shift;
-    }
-    return islands;
-}
-
-TexelRect rectOf(const Island& island) {
-    const glm::dvec2 low = glm::floor(island.low + kTexelTolerance);
-    const glm::dvec2 high = glm::max(low + 1.0, glm::ceil(island.high - kTexelTolerance));
-    return {low.x, low.y, high.x - low.x, high.y - low.y};
-}
-
 TexelRect unite(const TexelRect& a, const TexelRect& b) {
     const double x = std::min(a.x, b.x), y = std::min(a.y, b.y);
     return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
-}
-
-double atlasTexels(const TexelRect& rect, double scale) {
-    return (std::max(1.0, rect.width * scale) + 2 * kGutter) *
-           (std::max(1.0, rect.height * scale) + 2 * kGutter);
 }
 
 // Joins rectangles of one texture as long as that saves room. Candidates are the neighbours along a
@@ -146,13 +54,6 @@ void joinRects(std::vector<TexelRect>& rects, const std::vector<Island>& islands
     }
 }
 
-TexelRect alignedToBlocks(const TexelRect& rect) {
-    const auto down = [](double at) { return std::floor(at / kMipBlock) * kMipBlock; };
-    const double x = down(rect.x), y = down(rect.y);
-    return {x, y, down(rect.x + rect.width + kMipBlock - 1.0) - x,
-            down(rect.y + rect.height + kMipBlock - 1.0) - y};
-}
-
 int scaledSide(double texels, double sharpTexels, double scale) {
     return std::max(1, static_cast<int>(std::lround(std::min(texels, sharpTexels) * scale)));
 }
@@ -161,9 +62,9 @@ int scaledSide(double texels, double sharpTexels, double scale) {
 
 ChartSet makeCharts(std::span<NodeTriangle> triangles, const BlockMesh& mesh, const BlockTextures& textures,
                     double scale) {
-    const std::vector<Island> islands = findIslands(triangles, mesh, textures);
+    const std::vector<Island> islands = findIslands(triangles, mesh, textures, scale);
     std::vector<TexelRect> rects;
-    for (const Island& island : islands) rects.push_back(rectOf(island));
+    for (const Island& island : islands) rects.push_back(rectOf(island.low, island.high));
     Joiner joiner(islands.size());
     joinRects(rects, islands, scale, joiner);
 

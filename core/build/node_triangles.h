@@ -40,6 +40,11 @@ class PieceSurface {
     // The closest point of the original that faces the same way as `normal`; of all where none does. `near`:
     // the triangle of an earlier hit close by, or kNone.
     [[nodiscard]] Hit closest(const glm::vec3& point, const glm::vec3& normal, std::uint32_t near) const;
+    // The same for many points close together: first the triangles that can be closest to a point not farther than
+    // `reach` from `centre`, then for each point the closest of these.
+    void findCandidates(const glm::vec3& centre, float reach, const glm::vec3& normal, std::uint32_t near,
+                        std::vector<std::uint32_t>& candidates) const;
+    [[nodiscard]] Hit closestOf(std::span<const std::uint32_t> candidates, const glm::vec3& point) const;
     [[nodiscard]] std::uint32_t surfaceOf(const Hit& hit) const;
     [[nodiscard]] glm::vec2 uvAt(const Hit& hit) const;
     [[nodiscard]] glm::u8vec4 vertexColourAt(const Hit& hit) const;

@@ -57,27 +57,46 @@ std::vector<AtlasSize> candidates(std::span<const Chart> charts, int maxSide) {
     return sizes;
 }
 
-bool packInto(std::span<Chart> charts, const AtlasSize& size, std::vector<stbrp_rect>& rects,
-              std::vector<stbrp_node>& nodes) {
+// The packer goes by rows from the tallest chart to the lowest; on its side it goes by columns. Each way fits some sets
+// of charts that the others do not.
+struct PackingWay {
+    int heuristic;
+    bool onItsSide;
+};
+constexpr PackingWay kPackingWays[] = {{STBRP_HEURISTIC_Skyline_BL_sortHeight, false},
+                                       {STBRP_HEURISTIC_Skyline_BF_sortHeight, false},
+                                       {STBRP_HEURISTIC_Skyline_BL_sortHeight, true},
+                                       {STBRP_HEURISTIC_Skyline_BF_sortHeight, true}};
+
+bool packInto(std::span<Chart> charts, const AtlasSize& size, const PackingWay& way,
+              std::vector<stbrp_rect>& rects, std::vector<stbrp_node>& nodes) {
     // Gutters may hang over the atlas's edge, hence the larger target; a cell's corner there is its chart's corner in
     // the atlas.
     const Cells cells(charts);
-    const int width = size.width + 2 * kGutter, height = size.height + 2 * kGutter;
+    int width = size.width + 2 * kGutter, height = size.height + 2 * kGutter;
+    if (way.onItsSide) std::swap(width, height);
     rects.clear();
     for (std::size_t i = 0; i < charts.size(); ++i) {
         stbrp_rect rect{};
         rect.id = static_cast<int>(i);
         rect.w = cells.side(charts[i].width, size.width);
         rect.h = cells.side(charts[i].height, size.height);
+        if (way.onItsSide) std::swap(rect.w, rect.h);
         rects.push_back(rect);
     }
     nodes.resize(static_cast<std::size_t>(width));
     stbrp_context context;
     stbrp_init_target(&context, width, height, nodes.data(), width);
+    stbrp_setup_heuristic(&context, way.heuristic);
     if (stbrp_pack_rects(&context, rects.data(), static_cast<int>(rects.size())) == 0) return false;
     // Which of several charts of one size gets which place depends on the C library's sort; order them
     // ourselves.
     std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> places;
+    for (stbrp_rect& rect : rects) {
+        if (!way.onItsSide) continue;
+        std::swap(rect.w, rect.h);
+        std::swap(rect.x, rect.y);
+    }
     for (const stbrp_rect& rect : rects) places[{rect.w, rect.h}].emplace_back(-rect.y, -rect.x);
     for (auto& [sides, free] : places) std::sort(free.begin(), free.end());
     for (Chart& chart : charts) {
@@ -95,9 +114,11 @@ bool packAtlas(std::span<Chart> charts, int maxSide, AtlasSize& size) {
     std::vector<stbrp_rect> rects;
     std::vector<stbrp_node> nodes;
     for (const AtlasSize& candidate : candidates(charts, maxSide)) {
-        if (!packInto(charts, candidate, rects, nodes)) continue;
-        size = candidate;
-        return true;
+        for (const PackingWay& way : kPackingWays) {
+            if (!packInto(charts, candidate, way, rects, nodes)) continue;
+            size = candidate;
+            return true;
+        }
     }
     return false;
 }

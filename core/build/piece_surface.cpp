@@ -56,6 +56,31 @@ PieceSurface::Hit PieceSurface::closest(const glm::vec3& point, const glm::vec3&
     return {found.triangle, found.weights};
 }
 
+void PieceSurface::findCandidates(const glm::vec3& centre, float reach, const glm::vec3& normal,
+                                  std::uint32_t near, std::vector<std::uint32_t>& candidates) const {
+    candidates.clear();
+    const Hit hit = closest(centre, normal, near);
+    const bool anyFaces = glm::dot(normals_[hit.triangle], normal) > 0.0f;
+    const float distance = std::sqrt(tree_.closestOn(hit.triangle, centre).squaredDistance);
+    // A point `reach` away has a triangle within distance + reach, which is within distance + 2 reach of the centre; a
+    // little more for rounding.
+    tree_.visitNear(
+        centre, (distance + 2.0f * reach) * 1.0001f,
+        [&](std::uint32_t i) { return !anyFaces || glm::dot(normals_[i], normal) > 0.0f; },
+        [&](std::uint32_t i) { candidates.push_back(i); });
+    if (candidates.empty()) candidates.push_back(hit.triangle);
+}
+
+PieceSurface::Hit PieceSurface::closestOf(std::span<const std::uint32_t> candidates,
+                                          const glm::vec3& point) const {
+    ClosestPoint best;
+    for (const std::uint32_t candidate : candidates) {
+        const ClosestPoint found = tree_.closestOn(candidate, point);
+        if (found.squaredDistance < best.squaredDistance) best = found;
+    }
+    return {best.triangle, best.weights};
+}
+
 std::uint32_t PieceSurface::surfaceOf(const Hit& hit) const {
     return mesh_.wedges[piece_[hit.triangle].wedges.x].surface;
 }

@@ -12,7 +12,6 @@ namespace {
 
 // Below this step the areas of triangles would no longer be normal floats.
 const double kSmallestStep = std::ldexp(1.0, kMinGridExponent);
-constexpr float kLargestUv = 1e6f;
 
 // What a material makes of a vertex.
 struct Coating {

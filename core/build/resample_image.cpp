@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace fb {
 namespace {
@@ -69,60 +68,6 @@ void copyTexels(const Image& source, const TexelRect& rect, EdgeMode edge, const
     }
 }
 
-struct NearestTexel {
-    std::int32_t x = -1, y = -1;  // -1: none yet
-};
-
-// For every texel the nearest known one: two sweeps that hand the nearest of neighbours on (Danielsson 1980,
-// Euclidean distance mapping).
-std::vector<NearestTexel> findNearestKnown(int width, int height, const std::vector<std::uint8_t>& known) {
-    std::vector<NearestTexel> nearest(known.size());
-    const auto index = [&](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + x;
-    };
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (known[index(x, y)] != 0) nearest[index(x, y)] = {x, y};
-        }
-    }
-    const auto take = [&](int x, int y, int fromX, int fromY) {
-        if (fromX < 0 || fromX >= width || fromY < 0 || fromY >= height) return;
-        const NearestTexel offered = nearest[index(fromX, fromY)];
-        if (offered.x < 0) return;
-        NearestTexel& own = nearest[index(x, y)];
-        const auto distance = [&](const NearestTexel& n) {
-            const std::int64_t dx = n.x - x, dy = n.y - y;
-            return dx * dx + dy * dy;
-        };
-        if (own.x < 0 || distance(offered) < distance(own)) own = offered;
-    };
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (known[index(x, y)] != 0) continue;
-            take(x, y, x, y - 1);
-            take(x, y, x - 1, y - 1);
-            take(x, y, x + 1, y - 1);
-            take(x, y, x - 1, y);
-        }
-        for (int x = width - 1; x >= 0; --x) {
-            if (known[index(x, y)] == 0) take(x, y, x + 1, y);
-        }
-    }
-    for (int y = height - 1; y >= 0; --y) {
-        for (int x = width - 1; x >= 0; --x) {
-            if (known[index(x, y)] != 0) continue;
-            take(x, y, x, y + 1);
-            take(x, y, x - 1, y + 1);
-            take(x, y, x + 1, y + 1);
-            take(x, y, x + 1, y);
-        }
-        for (int x = 0; x < width; ++x) {
-            if (known[index(x, y)] == 0) take(x, y, x - 1, y);
-        }
-    }
-    return nearest;
-}
-
 }  // namespace
 
 void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, const ResampleTarget& into) {
@@ -169,19 +114,6 @@ void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, con
                 to[i * targetChannels + c] = static_cast<std::uint8_t>(sum);
             }
         }
-    }
-}
-
-void fillUnknown(Image& image, const std::vector<std::uint8_t>& known, int firstChannel, int endChannel) {
-    if (std::memchr(known.data(), 0, known.size()) == nullptr) return;
-    if (std::memchr(known.data(), 1, known.size()) == nullptr) return;
-    const std::vector<NearestTexel> nearest = findNearestKnown(image.width, image.height, known);
-    const auto channels = static_cast<std::size_t>(image.channels);
-    for (std::size_t at = 0; at < known.size(); ++at) {
-        if (known[at] != 0) continue;
-        const std::size_t from = static_cast<std::size_t>(nearest[at].y) * image.width + nearest[at].x;
-        for (int c = firstChannel; c < endChannel; ++c)
-            image.pixels[at * channels + c] = image.pixels[from * channels + c];
     }
 }
 

@@ -1,6 +1,5 @@
-// Area filtering of texture rectangles and filling of texels that nothing shows.
-// Comes from block_textures and fill_atlas; works in sRGB bytes, as the mip levels of decodeNode do, so that
-// a level of the hierarchy and a mip level of the one below look alike.
+// Area filtering of texture rectangles. Comes from texture_levels; works in sRGB bytes, as the mip levels of
+// decodeNode do, so that a level of the hierarchy and a mip level of the one below look alike.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +30,5 @@ struct ResampleTarget {
 // Every target texel becomes the mean of the part of the source that it covers; an exact copy where the sizes
 // are equal and the rectangle lies on whole texels.
 void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, const ResampleTarget& into);
-
-// Gives each texel where `known` is 0 the colour of the nearest one where it is 1, in channels [firstChannel,
-// endChannel). Without any known texel nothing changes.
-void fillUnknown(Image& image, const std::vector<std::uint8_t>& known, int firstChannel, int endChannel);
 
 }  // namespace fb

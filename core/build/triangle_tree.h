@@ -40,6 +40,9 @@ class TriangleTree {
     [[nodiscard]] ClosestPoint closest(const glm::vec3& p) const {
         return closest(p, {}, -1.0f, [](std::uint32_t) { return true; });
     }
+    // Calls visit(index) for the admitted triangles that are not farther from `p` than `distance`.
+    template <class Accepts, class Visit>
+    void visitNear(const glm::vec3& p, float distance, Accepts&& accepts, Visit&& visit) const;
     // Distance of `p` to triangle `index`, as a start for closest().
     [[nodiscard]] ClosestPoint closestOn(std::uint32_t index, const glm::vec3& p) const {
         ClosestPoint result = closestOnTriangle(p, triangles_[index]);
@@ -105,6 +108,28 @@ ClosestPoint TriangleTree::closest(const glm::vec3& p, ClosestPoint best, float 
         }
     }
     return best;
+}
+
+template <class Accepts, class Visit>
+void TriangleTree::visitNear(const glm::vec3& p, float distance, Accepts&& accepts, Visit&& visit) const {
+    if (nodes_.empty()) return;
+    const float limit = distance * distance;
+    std::array<std::uint32_t, 64> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0) {
+        const std::uint32_t at = stack[--size];
+        const Node& node = nodes_[at];
+        if (squaredDistance(node.box, p) > limit) continue;
+        if (node.count == 0) {
+            stack[size++] = node.first;
+            stack[size++] = at + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            if (accepts(order_[i]) && closestOn(order_[i], p).squaredDistance <= limit) visit(order_[i]);
+        }
+    }
 }
 
 }  // namespace fb

@@ -20,10 +20,14 @@ inline constexpr double kMaxCoordinate = 1e15;
 // A scene numbers its packs with five digits.
 inline constexpr std::uint64_t kMaxBlocks = 99999;
 
-// Textures: longest side, pixels (1 GiB as RGBA), and how many bytes of pixels one encoded byte may stand
+// Textures held whole: longest side, pixels (1 GiB as RGBA), and how many bytes of pixels one encoded byte may stand
 // for. Deflate reaches 1,032, a progressive JPEG of one colour somewhat more.
 inline constexpr int kMaxTextureSide = 32768;
 inline constexpr std::uint64_t kMaxTexturePixels = std::uint64_t{1} << 28;
 inline constexpr std::uint64_t kMaxTextureInflation = 4096;
+
+// Textures that are read part by part, of formats whose decoders need no more than a few rows or tiles.
+inline constexpr int kMaxTiledTextureSide = 1 << 17;
+inline constexpr std::uint64_t kMaxTiledTexturePixels = std::uint64_t{1} << 34;
 
 }  // namespace fb

@@ -120,6 +120,9 @@ class BlockSource {
 // grey sources become 8-bit; alpha is kept.
 [[nodiscard]] Result<Image> loadTexture(const SourceTexture& texture);
 
+// Whether `texture.image` has as many pixels as its size says.
+[[nodiscard]] Result<void> checkPixels(const SourceTexture& texture);
+
 // fraction in [0, 1] of phase; returns false to ask the work to stop (Ctrl-C).
 using Progress = std::function<bool(std::string_view phase, double fraction)>;
 

@@ -205,7 +205,8 @@ TEST(BuildBlock, LeavesOutABlockWithoutTrianglesAndSaysSo) {
 TEST(BuildBlock, RefusesBrokenBlocks) {
     SourceBlock block = blockOf(makeSheet({2, 2, 1.0, 1.0, {}}));
     block.mesh.triangles[0].x = 77;
-    EXPECT_FALSE(buildBlock(block, BuildSettings{}));
+    TextureStore store(0);
+    EXPECT_FALSE(buildBlock(block, BuildSettings{}, store));
 }
 
 // Soups of every size and place, with slivers, flat, collinear and non-manifold triangles: what comes out is
@@ -232,8 +233,9 @@ RC_GTEST_PROP(BuildBlock, MakesASoundHierarchyOfEveryTriangleSoup, (std::uint64_
     const auto image = paintImage(8, 8, [](int x, int y) { return glm::u8vec3(x * 30, y * 30, 0); });
     BuildSettings settings = settingsOf(16, 2 + static_cast<std::int64_t>(random.index(4)));
     settings.simplifier = random.index(2) == 0 ? Simplifier::meshoptimizer : Simplifier::openMesh;
+    TextureStore store(0);
     const Result<BlockBuild> built =
-        buildBlock(blockOf(soup, random.index(2) == 0 ? image : nullptr), settings);
+        buildBlock(blockOf(soup, random.index(2) == 0 ? image : nullptr), settings, store);
     RC_ASSERT(built.has_value());
     if (built->nodes.empty()) return;
     const Hierarchy hierarchy = joinBlocks({built->block});

@@ -16,7 +16,8 @@ inline BuildSettings settingsOf(std::int64_t desired, std::int64_t factor) {
 }
 
 inline BlockBuild build(const SourceBlock& block, const BuildSettings& settings) {
-    Result<BlockBuild> built = buildBlock(block, settings);
+    TextureStore store(std::uint64_t{1} << 24);
+    Result<BlockBuild> built = buildBlock(block, settings, store);
     EXPECT_TRUE(built) << built.error().oneLine();
     return built ? std::move(*built) : BlockBuild{};
 }

@@ -32,7 +32,6 @@ struct World {
     explicit World(const SourceBlock& block) : textures(decodeTextures(block)) {
         QuantisedBlock quantised = quantiseBlock(block, textures);
         mesh = std::move(quantised.mesh);
-        fillUnusedTexels(textures, mesh, quantised.triangles);
         triangles = dressOriginal(mesh, quantised.triangles);
     }
     Atlas atlas(double scale, int maxSide = 4096) {
@@ -139,6 +138,41 @@ TEST(MakeAtlas, JoinsChartsThatOverlapInTheTexture) {
     ASSERT_EQ(set.charts.size(), 1u);
     EXPECT_EQ(set.charts[0].rect.width, 40.0);  // 34 in whole blocks
     EXPECT_EQ(set.charts[0].rect.height, 32.0);
+}
+
+// A staircase of 8 connected squares of 64 texels along the diagonal fills an eighth of its rectangle. Its charts keep
+// the source's blocks, and together take less than a third of that rectangle.
+TEST(MakeAtlas, CutsObliqueIslandsIntoPartsThatNeedLessRoom) {
+    constexpr std::uint32_t kSteps = 8;
+    SourceMesh mesh;
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+        // Neighbours share a corner, and by it they are connected.
+        for (const glm::uvec2 corner : {glm::uvec2(0, 0), glm::uvec2(1, 0), glm::uvec2(0, 1), glm::uvec2(1, 1)}) {
+            const glm::dvec2 at(i + corner.x, i + corner.y);
+            mesh.positions.emplace_back(at, 0.0);
+            mesh.uvs.emplace_back(at / double(kSteps));
+        }
+        mesh.triangles.emplace_back(4 * i, 4 * i + 1, 4 * i + 2);
+        mesh.triangles.emplace_back(4 * i + 1, 4 * i + 3, 4 * i + 2);
+    }
+    World world(blockOf(mesh, paintImage(512, 512, everyTexelItsOwn)));
+    const ChartSet set = makeCharts(world.triangles, world.mesh, world.textures, 1.0);
+    EXPECT_GT(set.charts.size(), 1u);
+    int room = 0;
+    for (const Chart& chart : set.charts) {
+        EXPECT_TRUE(chart.aligned);
+        room += chart.width * chart.height;
+    }
+    EXPECT_LT(room, 512 * 512 / 3);
+    const Atlas atlas = world.atlas(1.0);
+    ASSERT_TRUE(atlas.image);
+    for (const NodeTriangle& t : world.triangles) {
+        const glm::vec2 inAtlas = (t.texels[0] + t.texels[1] + t.texels[2]) / 3.0f;
+        glm::dvec2 inPicture(0.0);
+        for (int k = 0; k < 3; ++k) inPicture += glm::dvec2(world.mesh.wedges[t.wedges[k]].uv) * 512.0 / 3.0;
+        EXPECT_EQ(texel(*atlas.image, static_cast<int>(inAtlas.x), static_cast<int>(inAtlas.y)),
+                  everyTexelItsOwn(static_cast<int>(inPicture.x), static_cast<int>(inPicture.y)));
+    }
 }
 
 // Charts at odd places of a noisy picture: each block of 8 x 8 texels of the picture under a chart is a block of the

@@ -1,0 +1,58 @@
+// The connected parts of a node's textured triangles, in their textures. Comes from node_triangles; make_charts turns
+// islands into charts. An island whose rectangle it fills badly (an oblique strip, a ring) is cut between its triangles
+// into parts that together need less room.
+#pragma once
+
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "build/node_triangles.h"
+
+namespace fb {
+
+struct Island {
+    std::uint32_t surface = 0;
+    glm::dvec2 low{0.0},
+        high{0.0};          // source texels, moved by whole repeats so that `low` lies in the picture
+    glm::dvec2 shift{0.0};  // what was subtracted
+};
+
+class Joiner {
+  public:
+    explicit Joiner(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) {
+            parent_[i] = parent_[parent_[i]];
+            i = parent_[i];
+        }
+        return i;
+    }
+    // The lower number stands for both.
+    std::uint32_t join(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+        return std::min(a, b);
+    }
+
+  private:
+    std::vector<std::uint32_t> parent_;
+};
+
+[[nodiscard]] glm::dvec2 textureSize(const Surface& surface, const BlockTextures& textures);
+
+// Whole texels.
+[[nodiscard]] TexelRect rectOf(const glm::dvec2& low, const glm::dvec2& high);
+
+// Grown to blocks of kMipBlock texels.
+[[nodiscard]] TexelRect alignedToBlocks(const TexelRect& rect);
+
+// Room that a rectangle of texels takes in an atlas, with gutters.
+[[nodiscard]] double atlasTexels(const TexelRect& rect, double scale);
+
+// Sets each textured triangle's chart to the number of its island.
+[[nodiscard]] std::vector<Island> findIslands(std::span<NodeTriangle> triangles, const BlockMesh& mesh,
+                                              const BlockTextures& textures, double scale);
+
+}  // namespace fb
