@@ -125,6 +125,7 @@ Result<CityOptions> cityOptions(const CityCommand& command) {
         if (!count) return usageFailure(option + (" " + text), count.error().reason, count.error().hint);
         *value = *count;
     }
+    options.terrain = command.terrain;
     return options;
 }
 

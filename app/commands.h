@@ -31,6 +31,7 @@ struct BuildCommand {
 struct CityCommand {
     std::filesystem::path output;
     std::string blocks, triangles, texels, seed;  // numbers with K, M or G; empty: the default
+    bool terrain = false;                         // on hills
     std::vector<std::string> sets;
     ProgressStyle progress = ProgressStyle::automatic;
 };

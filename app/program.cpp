@@ -63,6 +63,7 @@ void addCity(CLI::App& program, CommandLine& line) {
     command->add_option("--triangles", c.triangles, "Triangles of the whole city, as in 480K or 8.95M");
     command->add_option("--texels", c.texels, "Texels of the whole city, as in 24M");
     command->add_option("--seed", c.seed, "Another seed makes another city");
+    command->add_flag("--terrain", c.terrain, "Put the city on hills, with the country around it");
     command->add_option("--set", c.sets, "Set a knob: build.NAME=VALUE");
     addProgress(command, c.progress);
     command->callback([&line] { line.run = [&line] { return runCity(line.city); }; });
