@@ -43,9 +43,9 @@ void compareLines(const std::vector<BorderPoint>& own, const std::vector<BorderP
         for (std::size_t k = j; k + 1 < other.size() && other[k].place < own[i + 1].place; ++k) {
             if ((other[k].sides & acrossSide) == 0) continue;
             for (const std::int32_t place : {std::max(own[i].place, other[k].place), std::min(own[i + 1].place, other[k + 1].place)}) {
-                const double gap = lineAt(own[i], own[i + 1], place) - lineAt(other[k], other[k + 1], place);
-                gaps.above[i] = std::max(gaps.above[i], std::max(gap, 0.0));
-                gaps.widest = std::max(gaps.widest, std::abs(gap));
+                const double mine = lineAt(own[i], own[i + 1], place), theirs = lineAt(other[k], other[k + 1], place);
+                gaps.reach[i] = std::min({gaps.reach[i], mine, theirs});
+                gaps.widest = std::max(gaps.widest, std::abs(mine - theirs));
             }
         }
     }
@@ -122,7 +122,7 @@ Result<std::vector<BorderPoint>> borderOf(const TerrainHeights& heights, const T
 Result<BorderGaps> borderGaps(const TerrainHeights& heights, const TerrainGrid& grid, const TerrainLayout& layout,
                               const BorderSide& side, const std::vector<BorderPoint>& own) {
     BorderGaps gaps;
-    gaps.above.assign(own.size(), -1.0);
+    gaps.reach.assign(own.size(), kNoNeighbour);
     if (side.line == 0 || own.empty()) return gaps;
     const auto compareBoth = [&](const std::vector<BorderPoint>& other) {
         compareLines(own, other, kSideAfter, kSideBefore, gaps);

@@ -37,10 +37,12 @@ struct BorderSide {
 [[nodiscard]] Result<std::vector<BorderPoint>> borderOf(const TerrainHeights& heights, const TerrainGrid& grid,
                                                         const TerrainLayout& layout, const BorderSide& side);
 
-// Against every level whose tiles can lie across `own`, the vertices of `side`: how far the own border reaches above
-// theirs, in grid units, by stretch of `own` (negative: no neighbour of another level), and the widest gap either way.
+// Against every level whose tiles can lie across `own`, the vertices of `side`: by stretch of `own` how deep a skirt
+// must reach, in grid units (the lowest that any neighbour lies where it lies below; kNoNeighbour where there is none of
+// another level), and the widest gap either way.
+inline constexpr double kNoNeighbour = 1e300;
 struct BorderGaps {
-    std::vector<double> above;
+    std::vector<double> reach;
     double widest = 0.0;
 };
 [[nodiscard]] Result<BorderGaps> borderGaps(const TerrainHeights& heights, const TerrainGrid& grid,

@@ -32,28 +32,29 @@ Result<double> hangSkirts(const TerrainBuild& build, TileMesh& tile) {
         Result<BorderGaps> gaps = borderGaps(build.heights, build.grid, build.layout, tile.sides[s], line);
         if (!gaps) return passOn(gaps);
         widest = std::max(widest, gaps->widest);
-        if (std::ranges::all_of(gaps->above, [](double gap) { return gap < 0.0; })) continue;
         const std::uint8_t inner = s < 2 ? kSideAfter : kSideBefore;
+        const auto hangs = [&](std::size_t stretch) {
+            return stretch + 1 < line.size() && (line[stretch].sides & inner) != 0 && gaps->reach[stretch] < kNoNeighbour;
+        };
         const std::unordered_map<std::int32_t, std::uint32_t> along = verticesAlong(tile, s, surface);
         // As seen from outside, a skirt goes to the right along the line above and the one to the right.
         const bool forward = s == 1 || s == 3;
         std::unordered_map<std::uint32_t, std::uint32_t> hanging;
         const auto below = [&](std::size_t point) {
-            const auto depthOf = [&](std::size_t stretch) {
-                return stretch + 1 < line.size() && (line[stretch].sides & inner) != 0 ? gaps->above[stretch] : -1.0;
-            };
             const std::uint32_t top = along.at(line[point].place);
             const auto [found, isNew] = hanging.emplace(top, static_cast<std::uint32_t>(tile.vertices.size()));
             if (isNew) {
-                const double depth = std::max({0.0, depthOf(point), point > 0 ? depthOf(point - 1) : -1.0});
                 TileVertex vertex = tile.vertices[top];
-                vertex.height -= static_cast<std::int32_t>(std::ceil(depth)) + 1;
+                double reach = vertex.height;
+                if (hangs(point)) reach = std::min(reach, gaps->reach[point]);
+                if (point > 0 && hangs(point - 1)) reach = std::min(reach, gaps->reach[point - 1]);
+                vertex.height = static_cast<std::int32_t>(std::floor(reach)) - 1;
                 tile.vertices.push_back(vertex);
             }
             return found->second;
         };
         for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-            if (gaps->above[i] < 0.0 || (line[i].sides & inner) == 0) continue;
+            if (!hangs(i)) continue;
             const std::uint32_t a = along.at(line[i].place), b = along.at(line[i + 1].place);
             const std::uint32_t c = below(i), d = below(i + 1);
             const glm::uvec3 first = forward ? glm::uvec3(a, c, d) : glm::uvec3(a, d, c);
