@@ -72,7 +72,8 @@ class TerrainBuilder {
     }
 
     Result<BuiltTerrain> run() {
-        if (std::optional<BuiltBlock> reused = reusePack(task_.folder, task_.pack, task_.settingsHash, hash_)) {
+        if (std::optional<BuiltBlock> reused =
+                reusePack(task_.folder, task_.pack, task_.settingsHash, hash_)) {
             result_.block = std::move(*reused);
             result_.report.reusedBlocks = 1;
             finishReport();
@@ -80,16 +81,19 @@ class TerrainBuilder {
         }
         Result<TerrainGrid> grid = makeTerrainGrid(info_);
         if (!grid) return passOn(grid);
-        layout_ = layOutTerrain(info_.columns, info_.rows, static_cast<std::uint64_t>(task_.settings.desiredTriangles));
+        layout_ = layOutTerrain(info_.columns, info_.rows,
+                                static_cast<std::uint64_t>(task_.settings.desiredTriangles));
         if (Result<void> made = makeFolder(work_); !made) return passOn(made);
-        Result<TerrainHeights> heights = TerrainHeights::make(task_.source, *grid, layout_.sideExponent(0) + 1, work_);
+        Result<TerrainHeights> heights =
+            TerrainHeights::make(task_.source, *grid, layout_.sideExponent(0) + 1, work_);
         if (!heights) return passOn(heights);
         Result<TerrainDrape> drape = TerrainDrape::make(task_.source, work_);
         if (!drape) return passOn(drape);
         Result<TerrainTree> tree = makeTerrainTree(*heights, layout_);
         if (!tree) return passOn(tree);
         tree_ = std::move(*tree);
-        const TerrainBuild build{*heights, *grid, layout_, static_cast<std::uint64_t>(task_.settings.desiredTriangles)};
+        const TerrainBuild build{*heights, *grid, layout_,
+                                 static_cast<std::uint64_t>(task_.settings.desiredTriangles)};
         const TerrainLook look{info_, *drape, task_.settings, leafDrapeLevel(info_, layout_, task_.settings)};
         result_.block.grid = grid->grid;
         result_.block.kind = BlockKind::terrain;
@@ -120,7 +124,9 @@ class TerrainBuilder {
         result_.block.nodes.resize(tree_.nodes.size());
         upper_.resize(above);
         PartRunner runner(task_, parts + std::size_t{above});
-        if (Result<void> ran = runner.run(parts, [&](std::size_t i) { return buildPart(build, look, i); }); !ran) return ran;
+        if (Result<void> ran = runner.run(parts, [&](std::size_t i) { return buildPart(build, look, i); });
+            !ran)
+            return ran;
         return runner.run(above, [&](std::size_t i) -> Result<void> {
             Result<TerrainNode> node = makeTerrainNode(build, look, tree_.nodes[i].tile);
             if (!node) return passOn(node);
@@ -151,7 +157,8 @@ class TerrainBuilder {
     }
 
     Result<BuiltBlock> writePart(const TerrainBuild& build, const TerrainLook& look,
-                                 const std::vector<std::uint32_t>& nodes, std::uint32_t number, std::uint64_t partHash) {
+                                 const std::vector<std::uint32_t>& nodes, std::uint32_t number,
+                                 std::uint64_t partHash) {
         Result<PackWriter> pack = PackWriter::create(work_, number);
         if (!pack) return passOn(pack);
         BuiltBlock block{result_.block.grid, BlockKind::terrain, {}};
@@ -174,7 +181,8 @@ class TerrainBuilder {
             block.nodes.push_back(made->record);
         }
         growParents(block.nodes);
-        if (Result<void> finished = pack->finish(block, task_.settingsHash, partHash); !finished) return passOn(finished);
+        if (Result<void> finished = pack->finish(block, task_.settingsHash, partHash); !finished)
+            return passOn(finished);
         return block;
     }
 
@@ -213,7 +221,8 @@ class TerrainBuilder {
         report.stuckNodes = stuck_;
         for (const BuiltNode& node : result_.block.nodes) {
             if (node.childCount > 0) continue;
-            report.leafTriangles += std::uint64_t{node.texturedTriangles} + node.untexturedTriangles - node.skirtTriangles;
+            report.leafTriangles +=
+                std::uint64_t{node.texturedTriangles} + node.untexturedTriangles - node.skirtTriangles;
             report.leafAreaSquareMetres += static_cast<double>(node.areaSquareMetres);
         }
         report.sourceTriangles = report.leafTriangles;

@@ -1,10 +1,10 @@
-// Building the ground: a height map becomes one block of the scene, a quadtree of its own (terrain_layout.h) with the
-// same node records and payloads as any block. Comes from BlockSource::terrain(); build_scene calls it after the
-// blocks of meshes. Out of core: the map and its picture are read once into work files in the scene's folder; squares
-// of some hundred nodes are built in parallel, each kept as a pack of its own in the work folder, so that a killed
-// build goes on where it was (the few nodes above them are made again), and joined into the block's pack in the end.
-// The same bytes come out whatever the number of threads. Levels are those of the quadtree; the error of an inner node
-// is a bound (terrain_error.h), raised to its children's.
+// Building the ground: a height map becomes one block of the scene, a quadtree of its own (terrain_layout.h)
+// with the same node records and payloads as any block. Comes from BlockSource::terrain(); build_scene calls
+// it after the blocks of meshes. Out of core: the map and its picture are read once into work files in the
+// scene's folder; squares of some hundred nodes are built in parallel, each kept as a pack of its own in the
+// work folder, so that a killed build goes on where it was (the few nodes above them are made again), and
+// joined into the block's pack in the end. The same bytes come out whatever the number of threads. Levels are
+// those of the quadtree; the error of an inner node is a bound (terrain_error.h), raised to its children's.
 #pragma once
 
 #include "build/build_scene.h"

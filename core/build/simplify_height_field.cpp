@@ -40,8 +40,12 @@ struct Collapse {
 class FieldSimplifier {
   public:
     FieldSimplifier(const std::vector<HeightFieldPoint>& points, std::vector<glm::uvec3>&& triangles)
-        : points_(points), triangles_(std::move(triangles)), around_(points.size()), quadrics_(points.size()),
-          stamps_(points.size(), 0), fixed_(points.size(), 0) {
+        : points_(points),
+          triangles_(std::move(triangles)),
+          around_(points.size()),
+          quadrics_(points.size()),
+          stamps_(points.size(), 0),
+          fixed_(points.size(), 0) {
         // One scale for all axes, so that sums of squares keep their digits.
         std::int32_t side = 1;
         for (const HeightFieldPoint& p : points) {
@@ -49,7 +53,8 @@ class FieldSimplifier {
         }
         for (const HeightFieldPoint& p : points) {
             places_.emplace_back(glm::dvec3(p.across - points[0].across, p.down - points[0].down,
-                                            p.height - points[0].height) / static_cast<double>(side));
+                                            p.height - points[0].height) /
+                                 static_cast<double>(side));
         }
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
             for (int k = 0; k < 3; ++k) around_[triangles_[t][k]].push_back(t);
@@ -185,7 +190,7 @@ class FieldSimplifier {
     }
 
     const std::vector<HeightFieldPoint>& points_;
-    std::vector<glm::uvec3> triangles_;  // x == kNobody: gone
+    std::vector<glm::uvec3> triangles_;               // x == kNobody: gone
     std::vector<std::vector<std::uint32_t>> around_;  // by vertex: its triangles
     std::vector<Quadric> quadrics_;
     std::vector<std::uint32_t> stamps_;  // by vertex: offers with another stamp are out of date

@@ -1,5 +1,6 @@
-// A large grid of small values (heights, texels) on disk, in squares of 64 x 64, so that a window anywhere in it is
-// read without reading whole rows. Written once, row by row; read from any thread. A work file of terrain builds.
+// A large grid of small values (heights, texels) on disk, in squares of 64 x 64, so that a window anywhere in
+// it is read without reading whole rows. Written once, row by row; read from any thread. A work file of
+// terrain builds.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +53,8 @@ class SquareFile {
     // T{} beyond the grid.
     [[nodiscard]] Result<void> read(ValueWindow<T>& window) const {
         window.values.assign(std::size_t{window.columns} * window.rows, T{});
-        const std::int64_t left = std::max<std::int64_t>(window.column, 0), top = std::max<std::int64_t>(window.row, 0);
+        const std::int64_t left = std::max<std::int64_t>(window.column, 0),
+                           top = std::max<std::int64_t>(window.row, 0);
         const std::int64_t right = std::min<std::int64_t>(window.column + window.columns, columns_);
         const std::int64_t bottom = std::min<std::int64_t>(window.row + window.rows, rows_);
         if (left >= right || top >= bottom) return {};
@@ -60,8 +62,9 @@ class SquareFile {
         std::vector<T> band(static_cast<std::size_t>(end - first) * kSquareSide * kSquareSide);
         for (std::int64_t squareRow = top / kSquareSide; squareRow * kSquareSide < bottom; ++squareRow) {
             const auto square = static_cast<std::uint64_t>(squareRow * squaresAcross(columns_) + first);
-            if (Result<void> read = file_.readAt(square * kSquareSide * kSquareSide * sizeof(T),
-                                                 {reinterpret_cast<std::uint8_t*>(band.data()), band.size() * sizeof(T)});
+            if (Result<void> read =
+                    file_.readAt(square * kSquareSide * kSquareSide * sizeof(T),
+                                 {reinterpret_cast<std::uint8_t*>(band.data()), band.size() * sizeof(T)});
                 !read) {
                 return read;
             }
@@ -77,9 +80,11 @@ class SquareFile {
     struct Span {
         std::int64_t left, right, firstSquare;
     };
-    static void copyRow(const std::vector<T>& band, std::int64_t y, const Span& span, ValueWindow<T>& window) {
+    static void copyRow(const std::vector<T>& band, std::int64_t y, const Span& span,
+                        ValueWindow<T>& window) {
         for (std::int64_t x = span.left; x < span.right;) {
-            const std::int64_t square = x / kSquareSide, end = std::min(span.right, (square + 1) * kSquareSide);
+            const std::int64_t square = x / kSquareSide,
+                               end = std::min(span.right, (square + 1) * kSquareSide);
             const std::int64_t from =
                 ((square - span.firstSquare) * kSquareSide + y % kSquareSide) * kSquareSide + x % kSquareSide;
             std::copy_n(band.begin() + from, end - x,
@@ -95,7 +100,8 @@ class SquareFile {
 template <class T>
 class SquareWriter {
   public:
-    [[nodiscard]] static Result<SquareWriter> create(const std::filesystem::path& path, std::uint32_t columns) {
+    [[nodiscard]] static Result<SquareWriter> create(const std::filesystem::path& path,
+                                                     std::uint32_t columns) {
         Result<AtomicFile> file = AtomicFile::create(path);
         if (!file) return passOn(file);
         SquareWriter writer;
@@ -107,7 +113,8 @@ class SquareWriter {
     }
     [[nodiscard]] Result<void> add(std::span<const T> row) {
         for (std::uint32_t i = 0; i < columns_; ++i) {
-            band_[(std::size_t{i / kSquareSide} * kSquareSide + filled_) * kSquareSide + i % kSquareSide] = row[i];
+            band_[(std::size_t{i / kSquareSide} * kSquareSide + filled_) * kSquareSide + i % kSquareSide] =
+                row[i];
         }
         ++rows_;
         return ++filled_ == kSquareSide ? flush() : Result<void>();

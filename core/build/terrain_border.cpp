@@ -34,16 +34,18 @@ Stretch stretchOf(const std::vector<BorderPoint>& line, std::size_t from, std::s
 constexpr double kRoundingUnits = 1.0;
 
 // Compares `own` with `other` over the stretches that both have; `acrossSide`: the other's side of the line.
-void compareLines(const std::vector<BorderPoint>& own, const std::vector<BorderPoint>& other, std::uint8_t acrossSide,
-                  std::uint8_t ownSide, BorderGaps& gaps) {
+void compareLines(const std::vector<BorderPoint>& own, const std::vector<BorderPoint>& other,
+                  std::uint8_t acrossSide, std::uint8_t ownSide, BorderGaps& gaps) {
     std::size_t j = 0;
     for (std::size_t i = 0; i + 1 < own.size(); ++i) {
         if ((own[i].sides & ownSide) == 0) continue;
         while (j + 1 < other.size() && other[j + 1].place <= own[i].place) ++j;
         for (std::size_t k = j; k + 1 < other.size() && other[k].place < own[i + 1].place; ++k) {
             if ((other[k].sides & acrossSide) == 0) continue;
-            for (const std::int32_t place : {std::max(own[i].place, other[k].place), std::min(own[i + 1].place, other[k + 1].place)}) {
-                const double mine = lineAt(own[i], own[i + 1], place), theirs = lineAt(other[k], other[k + 1], place);
+            for (const std::int32_t place :
+                 {std::max(own[i].place, other[k].place), std::min(own[i + 1].place, other[k + 1].place)}) {
+                const double mine = lineAt(own[i], own[i + 1], place),
+                             theirs = lineAt(other[k], other[k + 1], place);
                 gaps.reach[i] = std::min({gaps.reach[i], mine, theirs});
                 gaps.widest = std::max(gaps.widest, std::abs(mine - theirs));
             }
@@ -105,8 +107,10 @@ Result<std::vector<BorderPoint>> borderOf(const TerrainHeights& heights, const T
         const std::int64_t n = std::int64_t{first} + i;
         const HeightSample& before = side.vertical ? window.at(at - 1, n) : window.at(n, at - 1);
         const HeightSample& after = side.vertical ? window.at(at, n) : window.at(n, at);
-        const auto fine = static_cast<std::size_t>(std::min<std::uint64_t>(static_cast<std::uint64_t>(n) << stride, places.size() - 1));
-        const auto sides = static_cast<std::uint8_t>((before.cell() ? kSideBefore : 0) | (after.cell() ? kSideAfter : 0));
+        const auto fine = static_cast<std::size_t>(
+            std::min<std::uint64_t>(static_cast<std::uint64_t>(n) << stride, places.size() - 1));
+        const auto sides =
+            static_cast<std::uint8_t>((before.cell() ? kSideBefore : 0) | (after.cell() ? kSideAfter : 0));
         line.push_back({places[fine], after.height(), i < count ? sides : std::uint8_t{0}});
     }
     if (side.level == layout.depth) return line;
@@ -119,8 +123,9 @@ Result<std::vector<BorderPoint>> borderOf(const TerrainHeights& heights, const T
     return line;
 }
 
-Result<BorderGaps> borderGaps(const TerrainHeights& heights, const TerrainGrid& grid, const TerrainLayout& layout,
-                              const BorderSide& side, const std::vector<BorderPoint>& own) {
+Result<BorderGaps> borderGaps(const TerrainHeights& heights, const TerrainGrid& grid,
+                              const TerrainLayout& layout, const BorderSide& side,
+                              const std::vector<BorderPoint>& own) {
     BorderGaps gaps;
     gaps.reach.assign(own.size(), kNoNeighbour);
     if (side.line == 0 || own.empty()) return gaps;

@@ -21,13 +21,14 @@ Result<TerrainDrape> TerrainDrape::make(const TerrainSource& source, const std::
     Result<SquareWriter<DrapeTexel>> writer = SquareWriter<DrapeTexel>::create(drapeFile(folder, 0), columns);
     if (!writer) return passOn(writer);
     std::vector<DrapeTexel> row(columns);
-    Result<void> read = source.readDrape([&](std::uint32_t, std::span<const std::uint8_t> rows) -> Result<void> {
-        for (std::size_t at = 0; at < rows.size(); at += row.size() * 3) {
-            std::memcpy(row.data(), rows.data() + at, row.size() * 3);
-            if (Result<void> added = writer->add(row); !added) return added;
-        }
-        return {};
-    });
+    Result<void> read =
+        source.readDrape([&](std::uint32_t, std::span<const std::uint8_t> rows) -> Result<void> {
+            for (std::size_t at = 0; at < rows.size(); at += row.size() * 3) {
+                std::memcpy(row.data(), rows.data() + at, row.size() * 3);
+                if (Result<void> added = writer->add(row); !added) return added;
+            }
+            return {};
+        });
     if (!read) return passOn(read);
     Result<SquareFile<DrapeTexel>> file = writer->finish();
     if (!file) return passOn(file);
@@ -41,7 +42,8 @@ Result<TerrainDrape> TerrainDrape::make(const TerrainSource& source, const std::
 Result<void> TerrainDrape::addCoarser(const std::filesystem::path& folder) {
     const SquareFile<DrapeTexel>& fine = levels_.back();
     const std::uint32_t wide = (fine.columns() + 1) / 2, high = (fine.rows() + 1) / 2;
-    Result<SquareWriter<DrapeTexel>> writer = SquareWriter<DrapeTexel>::create(drapeFile(folder, levels_.size()), wide);
+    Result<SquareWriter<DrapeTexel>> writer =
+        SquareWriter<DrapeTexel>::create(drapeFile(folder, levels_.size()), wide);
     if (!writer) return passOn(writer);
     std::vector<DrapeTexel> row(wide);
     for (std::uint32_t j = 0; j < high; j += kSquareSide / 2) {
@@ -56,7 +58,9 @@ Result<void> TerrainDrape::addCoarser(const std::filesystem::path& folder) {
                         r += texel.r, g += texel.g, b += texel.b, ++count;
                     }
                 }
-                const auto mean = [count](unsigned sum) { return static_cast<std::uint8_t>((sum + count / 2) / count); };
+                const auto mean = [count](unsigned sum) {
+                    return static_cast<std::uint8_t>((sum + count / 2) / count);
+                };
                 row[x] = {mean(r), mean(g), mean(b)};
             }
             if (Result<void> added = writer->add(row); !added) return added;
@@ -68,22 +72,28 @@ Result<void> TerrainDrape::addCoarser(const std::filesystem::path& folder) {
     return {};
 }
 
-Result<Image> TerrainDrape::read(std::uint32_t level, std::int64_t column, std::int64_t row, int width, int height) const {
+Result<Image> TerrainDrape::read(std::uint32_t level, std::int64_t column, std::int64_t row, int width,
+                                 int height) const {
     const SquareFile<DrapeTexel>& file = levels_[level];
     const auto clampTo = [](std::int64_t at, std::uint32_t count) {
         return std::clamp<std::int64_t>(at, 0, std::int64_t{count} - 1);
     };
-    const std::int64_t left = clampTo(column, file.columns()), right = clampTo(column + width - 1, file.columns());
+    const std::int64_t left = clampTo(column, file.columns()),
+                       right = clampTo(column + width - 1, file.columns());
     const std::int64_t top = clampTo(row, file.rows()), bottom = clampTo(row + height - 1, file.rows());
-    ValueWindow<DrapeTexel> window{left, top, static_cast<std::uint32_t>(right - left + 1),
-                                   static_cast<std::uint32_t>(bottom - top + 1), {}};
+    ValueWindow<DrapeTexel> window{left,
+                                   top,
+                                   static_cast<std::uint32_t>(right - left + 1),
+                                   static_cast<std::uint32_t>(bottom - top + 1),
+                                   {}};
     if (Result<void> read = file.read(window); !read) return passOn(read);
     Image image{width, height, 3, {}, false};
     image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
     std::uint8_t* out = image.pixels.data();
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x, out += 3) {
-            std::memcpy(out, &window.at(clampTo(column + x, file.columns()), clampTo(row + y, file.rows())), 3);
+            std::memcpy(out, &window.at(clampTo(column + x, file.columns()), clampTo(row + y, file.rows())),
+                        3);
         }
     }
     return image;

@@ -1,6 +1,7 @@
-// The picture on a terrain while it is built: a pyramid of halved pictures in work files, each texel the mean of the
-// four below it, in sRGB bytes as the mip levels of decodeNode are. Comes from TerrainSource::readDrape; a node takes
-// a rectangle of one level: a leaf the picture's own texels, the nodes above it one level coarser each.
+// The picture on a terrain while it is built: a pyramid of halved pictures in work files, each texel the mean
+// of the four below it, in sRGB bytes as the mip levels of decodeNode are. Comes from
+// TerrainSource::readDrape; a node takes a rectangle of one level: a leaf the picture's own texels, the nodes
+// above it one level coarser each.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +20,8 @@ static_assert(sizeof(DrapeTexel) == 3);
 class TerrainDrape {
   public:
     TerrainDrape() = default;  // no picture
-    [[nodiscard]] static Result<TerrainDrape> make(const TerrainSource& source, const std::filesystem::path& folder);
+    [[nodiscard]] static Result<TerrainDrape> make(const TerrainSource& source,
+                                                   const std::filesystem::path& folder);
 
     [[nodiscard]] bool isThere() const { return !levels_.empty(); }
     [[nodiscard]] std::uint32_t levels() const { return static_cast<std::uint32_t>(levels_.size()); }

@@ -42,7 +42,8 @@ std::vector<TileEdge> edgesOf(const TileMesh& tile) {
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
         while (end < keys.size() && keys[end] == keys[i]) ++end;
-        edges.push_back({static_cast<std::uint32_t>(keys[i] >> 32), static_cast<std::uint32_t>(keys[i]), end - i == 1});
+        edges.push_back(
+            {static_cast<std::uint32_t>(keys[i] >> 32), static_cast<std::uint32_t>(keys[i]), end - i == 1});
         i = end;
     }
     return edges;
@@ -59,7 +60,8 @@ TriangleTree treeOf(const TileMesh& tile, const glm::dvec3& corner) {
     std::vector<TriangleCorners> triangles;
     for (const glm::uvec3& t : tile.triangles) {
         TriangleCorners corners;
-        for (std::size_t k = 0; k < 3; ++k) corners[k] = glm::vec3(tile.vertices[t[static_cast<int>(k)]].place() - corner);
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k] = glm::vec3(tile.vertices[t[static_cast<int>(k)]].place() - corner);
         triangles.push_back(corners);
     }
     return TriangleTree(std::move(triangles));
@@ -67,8 +69,8 @@ TriangleTree treeOf(const TileMesh& tile, const glm::dvec3& corner) {
 
 class WindowMeasure {
   public:
-    WindowMeasure(const TerrainGrid& grid, const TileFacts& facts, const glm::dvec3& corner, std::uint32_t column,
-                  std::uint32_t row)
+    WindowMeasure(const TerrainGrid& grid, const TileFacts& facts, const glm::dvec3& corner,
+                  std::uint32_t column, std::uint32_t row)
         : grid_(grid), facts_(facts), tile_(facts.tile), corner_(corner), c0_(column), r0_(row) {
         c1_ = std::min(column + kWindowCells, tile_.lastColumn);
         r1_ = std::min(row + kWindowCells, tile_.lastRow);
@@ -91,28 +93,33 @@ class WindowMeasure {
     [[nodiscard]] double height(std::uint32_t c, std::uint32_t r) const { return window_.at(c, r).height(); }
 
     // First and last column (row) of the window within [low, high]; none: first > last.
-    static std::pair<std::uint32_t, std::uint32_t> within(const std::vector<std::int32_t>& places, std::uint32_t from,
-                                                          std::uint32_t to, double low, double high) {
+    static std::pair<std::uint32_t, std::uint32_t> within(const std::vector<std::int32_t>& places,
+                                                          std::uint32_t from, std::uint32_t to, double low,
+                                                          double high) {
         const auto begin = places.begin() + from, end = places.begin() + to + 1;
         const auto first = std::lower_bound(begin, end, low, [](std::int32_t p, double v) { return p < v; });
         const auto last = std::upper_bound(first, end, high, [](double v, std::int32_t p) { return v < p; });
         const auto firstAt = static_cast<std::uint32_t>(first - places.begin());
         const auto count = static_cast<std::uint32_t>(last - first);
-        return count == 0 ? std::pair{std::uint32_t{1}, std::uint32_t{0}} : std::pair{firstAt, firstAt + count - 1};
+        return count == 0 ? std::pair{std::uint32_t{1}, std::uint32_t{0}}
+                          : std::pair{firstAt, firstAt + count - 1};
     }
 
     void measureSamples(const glm::uvec3& t) {
-        const TileVertex *v[3] = {&tile_.vertices[t.x], &tile_.vertices[t.y], &tile_.vertices[t.z]};
+        const TileVertex* v[3] = {&tile_.vertices[t.x], &tile_.vertices[t.y], &tile_.vertices[t.z]};
         const auto [lowA, highA] = std::minmax({v[0]->across, v[1]->across, v[2]->across});
         const auto [lowD, highD] = std::minmax({v[0]->down, v[1]->down, v[2]->down});
         const auto [firstR, lastR] = within(grid_.down, r0_, r1_, lowD, highD);
         if (firstR > lastR) return;
-        const double ba = v[1]->across - v[0]->across, bd = v[1]->down - v[0]->down, bh = v[1]->height - v[0]->height;
-        const double ca = v[2]->across - v[0]->across, cd = v[2]->down - v[0]->down, ch = v[2]->height - v[0]->height;
+        const double ba = v[1]->across - v[0]->across, bd = v[1]->down - v[0]->down,
+                     bh = v[1]->height - v[0]->height;
+        const double ca = v[2]->across - v[0]->across, cd = v[2]->down - v[0]->down,
+                     ch = v[2]->height - v[0]->height;
         const double area = ba * cd - bd * ca;
         const double slopeA = (bh * cd - bd * ch) / area, slopeD = (ba * ch - bh * ca) / area;
         for (std::uint32_t r = firstR; r <= lastR; ++r) {
-            // The row's part of the triangle, a little widened; whether a sample is inside is decided exactly.
+            // The row's part of the triangle, a little widened; whether a sample is inside is decided
+            // exactly.
             double low = highA, high = lowA;
             for (int k = 0; k < 3; ++k) {
                 const TileVertex &p = *v[k], &q = *v[(k + 1) % 3];
@@ -128,7 +135,8 @@ class WindowMeasure {
                 if (!inside(v, c, r)) continue;
                 covered_[coveredAt(c, r)] = 1;
                 if (!window_.at(c, r).known()) continue;
-                const double drawn = v[0]->height + slopeA * (across(c) - v[0]->across) + slopeD * (down(r) - v[0]->down);
+                const double drawn =
+                    v[0]->height + slopeA * (across(c) - v[0]->across) + slopeD * (down(r) - v[0]->down);
                 error_.vertical = std::max(error_.vertical, std::abs(height(c, r) - drawn));
             }
         }
@@ -158,7 +166,8 @@ class WindowMeasure {
     }
     [[nodiscard]] double cellWidth(std::uint32_t c, std::uint32_t r) const {
         const double a = across(c + 1) - across(c), d = down(r + 1) - down(r);
-        const auto [low, high] = std::minmax({height(c, r), height(c + 1, r), height(c, r + 1), height(c + 1, r + 1)});
+        const auto [low, high] =
+            std::minmax({height(c, r), height(c + 1, r), height(c, r + 1), height(c + 1, r + 1)});
         return std::sqrt(a * a + d * d + (high - low) * (high - low));
     }
 
@@ -179,7 +188,8 @@ class WindowMeasure {
         clip(from.y, way.y, down(r0_), down(r1_));
         if (!(t0 < t1)) return;
         places_.assign({t0, t1});
-        const auto cross = [&](const std::vector<std::int32_t>& lines, std::uint32_t first, std::uint32_t last, int axis) {
+        const auto cross = [&](const std::vector<std::int32_t>& lines, std::uint32_t first,
+                               std::uint32_t last, int axis) {
             const double a = from[axis] + way[axis] * t0, b = from[axis] + way[axis] * t1;
             const auto [begin, end] = within(lines, first, last, std::min(a, b), std::max(a, b));
             for (std::uint32_t i = begin; i <= end; ++i) {
@@ -194,7 +204,8 @@ class WindowMeasure {
             const double a = places_[i], b = places_[i + 1];
             if (a == b) continue;
             const glm::dvec2 middle = from + way * (0.5 * (a + b));
-            const std::uint32_t c = cellOf(grid_.across, c0_, c1_, middle.x), r = cellOf(grid_.down, r0_, r1_, middle.y);
+            const std::uint32_t c = cellOf(grid_.across, c0_, c1_, middle.x),
+                                r = cellOf(grid_.down, r0_, r1_, middle.y);
             if (!cell(c, r)) continue;
             if (edge.free) error_.partCellWidth = std::max(error_.partCellWidth, cellWidth(c, r));
             const auto local = [&](double t) {
@@ -204,7 +215,8 @@ class WindowMeasure {
             };
             const auto look = [&](double t) {
                 const glm::dvec2 at = local(t);
-                error_.vertical = std::max(error_.vertical, std::abs(surface(c, r, at.x, at.y) - (p.height + climb * t)));
+                error_.vertical =
+                    std::max(error_.vertical, std::abs(surface(c, r, at.x, at.y) - (p.height + climb * t)));
             };
             look(a);
             look(b);
@@ -213,9 +225,11 @@ class WindowMeasure {
             if ((sideA < 0.0) != (sideB < 0.0)) look(a + (b - a) * (sideA / (sideA - sideB)));
         }
     }
-    static std::uint32_t cellOf(const std::vector<std::int32_t>& places, std::uint32_t first, std::uint32_t last, double at) {
+    static std::uint32_t cellOf(const std::vector<std::int32_t>& places, std::uint32_t first,
+                                std::uint32_t last, double at) {
         const auto end = places.begin() + last;
-        const auto above = std::upper_bound(places.begin() + first + 1, end, at, [](double v, std::int32_t p) { return v < p; });
+        const auto above = std::upper_bound(places.begin() + first + 1, end, at,
+                                            [](double v, std::int32_t p) { return v < p; });
         return static_cast<std::uint32_t>(above - places.begin()) - 1;
     }
 
@@ -231,7 +245,8 @@ class WindowMeasure {
                 }
                 if (width == 0.0) continue;  // part of no cell of this window
                 const glm::vec3 at(glm::dvec3(across(c), height(c, r), down(r)) - corner_);
-                const double distance = std::sqrt(static_cast<double>(facts_.tree.closest(at).squaredDistance));
+                const double distance =
+                    std::sqrt(static_cast<double>(facts_.tree.closest(at).squaredDistance));
                 error_.uncovered = std::max(error_.uncovered, distance * (1.0 + 1e-5) + 1.0 + width);
             }
         }
@@ -251,7 +266,8 @@ class WindowMeasure {
 }  // namespace
 
 Result<double> terrainError(const TerrainHeights& heights, const TerrainGrid& grid, const TileMesh& tile) {
-    const glm::dvec3 corner(grid.across[tile.firstColumn], tile.vertices.front().height, grid.down[tile.firstRow]);
+    const glm::dvec3 corner(grid.across[tile.firstColumn], tile.vertices.front().height,
+                            grid.down[tile.firstRow]);
     TileFacts facts{tile, edgesOf(tile), treeOf(tile, corner)};
     for (TileEdge& edge : facts.edges) {
         const TileVertex &a = tile.vertices[edge.a], &b = tile.vertices[edge.b];
@@ -264,12 +280,15 @@ Result<double> terrainError(const TerrainHeights& heights, const TerrainGrid& gr
     std::optional<Error> fault;
     std::mutex mutex;
     tbb::parallel_for(std::uint64_t{0}, std::uint64_t{wide} * high, [&](std::uint64_t i) {
-        WindowMeasure measure(grid, facts, corner, tile.firstColumn + static_cast<std::uint32_t>(i % wide) * kWindowCells,
+        WindowMeasure measure(grid, facts, corner,
+                              tile.firstColumn + static_cast<std::uint32_t>(i % wide) * kWindowCells,
                               tile.firstRow + static_cast<std::uint32_t>(i / wide) * kWindowCells);
         Result<WindowError> error = measure.run(heights);
         const std::scoped_lock lock(mutex);
-        if (error) total.grow(*error);  // a maximum: the same in any order
-        else fault = std::move(error.error());
+        if (error)
+            total.grow(*error);  // a maximum: the same in any order
+        else
+            fault = std::move(error.error());
     });
     if (fault) return tl::make_unexpected(std::move(*fault));
     const double part = total.partCellWidth > 0.0 ? total.vertical + total.partCellWidth : 0.0;

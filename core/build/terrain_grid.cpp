@@ -9,7 +9,8 @@ namespace {
 
 std::vector<std::int32_t> placesOf(std::uint32_t count, double unitsPerCell) {
     std::vector<std::int32_t> places(count);
-    for (std::uint32_t i = 0; i < count; ++i) places[i] = static_cast<std::int32_t>(std::floor(i * unitsPerCell + 0.5));
+    for (std::uint32_t i = 0; i < count; ++i)
+        places[i] = static_cast<std::int32_t>(std::floor(i * unitsPerCell + 0.5));
     return places;
 }
 

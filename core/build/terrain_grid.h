@@ -1,7 +1,8 @@
 // A terrain on its block's integer grid, once, so that tiles meet exactly. Comes from TerrainInfo.
-// Plan coordinates are whole grid units from the first sample: `across` by column, `down` by row, both rising;
-// a height is a whole number of units above the grid's origin. at() turns them into the block's coordinates.
-// Errors of a terrain are distances from the map on this grid: rounding onto it is at most half a step.
+// Plan coordinates are whole grid units from the first sample: `across` by column, `down` by row, both
+// rising; a height is a whole number of units above the grid's origin. at() turns them into the block's
+// coordinates. Errors of a terrain are distances from the map on this grid: rounding onto it is at most half
+// a step.
 #pragma once
 
 #include <cmath>
@@ -24,7 +25,8 @@ struct TerrainGrid {
 
     // Rounds to the nearest step; halves upward.
     [[nodiscard]] std::int32_t heightUnits(float metres) const {
-        return static_cast<std::int32_t>(std::floor(zeroHeight + static_cast<double>(metres) / grid.step + 0.5));
+        return static_cast<std::int32_t>(
+            std::floor(zeroHeight + static_cast<double>(metres) / grid.step + 0.5));
     }
     [[nodiscard]] glm::ivec3 at(std::int32_t a, std::int32_t d, std::int32_t height) const {
         return up == UpAxis::y ? glm::ivec3(firstAcross + a, height, firstDown + d)
@@ -36,7 +38,8 @@ struct TerrainGrid {
     }
 };
 
-// Refused: maps so large, or heights so far apart, that neighbouring columns would fall onto one step of the grid.
+// Refused: maps so large, or heights so far apart, that neighbouring columns would fall onto one step of the
+// grid.
 [[nodiscard]] Result<TerrainGrid> makeTerrainGrid(const TerrainInfo& info);
 
 }  // namespace fb

@@ -37,19 +37,20 @@ HeightSample meanAround(const HeightWindow& finer, std::int64_t c, std::int64_t 
 
 }  // namespace
 
-Result<TerrainHeights> TerrainHeights::make(const TerrainSource& source, const TerrainGrid& grid, std::uint32_t levels,
-                                            const std::filesystem::path& folder) {
+Result<TerrainHeights> TerrainHeights::make(const TerrainSource& source, const TerrainGrid& grid,
+                                            std::uint32_t levels, const std::filesystem::path& folder) {
     TerrainHeights made;
-    Result<SquareWriter<HeightSample>> writer = SquareWriter<HeightSample>::create(fileOf(folder, 0), grid.columns);
+    Result<SquareWriter<HeightSample>> writer =
+        SquareWriter<HeightSample>::create(fileOf(folder, 0), grid.columns);
     if (!writer) return passOn(writer);
     std::vector<HeightSample> above, row(grid.columns);
     Result<void> read = source.readHeights([&](std::uint32_t, std::span<const float> rows) -> Result<void> {
         for (std::size_t at = 0; at < rows.size(); at += grid.columns) {
             for (std::uint32_t i = 0; i < grid.columns; ++i) {
                 const float height = rows[at + i];
-                row[i].bits = height == height
-                                  ? HeightSample::kKnown | static_cast<std::uint32_t>(grid.heightUnits(height))
-                                  : 0u;
+                row[i].bits = height == height ? HeightSample::kKnown |
+                                                     static_cast<std::uint32_t>(grid.heightUnits(height))
+                                               : 0u;
             }
             if (!above.empty()) {
                 markCells(above, row);
@@ -75,7 +76,8 @@ Result<void> TerrainHeights::addCoarser(const std::filesystem::path& folder) {
     const auto halved = [](std::uint32_t samples) { return samples / 2 + 1; };  // cells halved, rounded up
     const std::uint32_t fineColumns = columns(fine), fineRows = rows(fine);
     const std::uint32_t wide = halved(fineColumns), high = halved(fineRows);
-    Result<SquareWriter<HeightSample>> writer = SquareWriter<HeightSample>::create(fileOf(folder, levels_.size()), wide);
+    Result<SquareWriter<HeightSample>> writer =
+        SquareWriter<HeightSample>::create(fileOf(folder, levels_.size()), wide);
     if (!writer) return passOn(writer);
     std::vector<HeightSample> row(wide);
     constexpr std::uint32_t kBand = kSquareSide / 2;
@@ -90,8 +92,8 @@ Result<void> TerrainHeights::addCoarser(const std::filesystem::path& folder) {
                 row[i].bits &= ~HeightSample::kCell;
                 if (!row[i].known()) row[i] = meanAround(window, c, r);
                 const bool inside = i + 1 < wide && j + 1 < high;
-                if (inside && (window.at(c, r).cell() || window.at(c + 1, r).cell() || window.at(c, r + 1).cell() ||
-                               window.at(c + 1, r + 1).cell())) {
+                if (inside && (window.at(c, r).cell() || window.at(c + 1, r).cell() ||
+                               window.at(c, r + 1).cell() || window.at(c + 1, r + 1).cell())) {
                     row[i].bits |= HeightSample::kCell;
                 }
             }

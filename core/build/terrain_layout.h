@@ -1,7 +1,8 @@
 // The quadtree over a height map: which squares of cells are nodes. Comes from the map's size and
 // build.desired_triangles; goes to build_terrain and the makers of tiles.
-// A leaf is a square of 2^k cells with at most twice the desired triangles, two a cell; four squares make the one
-// above, up to one root for the whole map. Squares without any cell are no nodes; those at the map's end are cut off.
+// A leaf is a square of 2^k cells with at most twice the desired triangles, two a cell; four squares make the
+// one above, up to one root for the whole map. Squares without any cell are no nodes; those at the map's end
+// are cut off.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +20,13 @@ struct TerrainLayout {
     std::uint32_t depth = 0;              // the leaves' level
 
     [[nodiscard]] std::uint32_t leafCells() const { return 1u << leafExponent; }
-    // The side of a tile of `level` is 2^this cells; also the level of the height pyramid whose cells are such tiles.
-    [[nodiscard]] std::uint32_t sideExponent(std::uint32_t level) const { return leafExponent + depth - level; }
-    // Coarse tiles are shaped from the pyramid's level with eight times as many cells along a side as a leaf has.
+    // The side of a tile of `level` is 2^this cells; also the level of the height pyramid whose cells are
+    // such tiles.
+    [[nodiscard]] std::uint32_t sideExponent(std::uint32_t level) const {
+        return leafExponent + depth - level;
+    }
+    // Coarse tiles are shaped from the pyramid's level with eight times as many cells along a side as a leaf
+    // has.
     [[nodiscard]] std::uint32_t strideExponent(std::uint32_t level) const {
         return depth - level > kFinerExponent ? depth - level - kFinerExponent : 0;
     }

@@ -27,18 +27,22 @@ struct TexelRange {
 };
 
 // Texels around samples `from` to `to`, one more at both ends.
-TexelRange texelsBetween(double first, double perCell, std::uint32_t from, std::uint32_t to, std::uint32_t level) {
+TexelRange texelsBetween(double first, double perCell, std::uint32_t from, std::uint32_t to,
+                         std::uint32_t level) {
     const double scale = std::ldexp(1.0, -static_cast<int>(level));
     const double low = std::floor((first + perCell * from) * scale) - 1.0;
     const double high = std::ceil((first + perCell * to) * scale) + 1.0;
     return {static_cast<std::int64_t>(low), static_cast<std::uint32_t>(high - low)};
 }
 
-DrapeRect drapeRect(const TerrainLook& look, const TerrainLayout& layout, const TileMesh& mesh, std::uint32_t level) {
+DrapeRect drapeRect(const TerrainLook& look, const TerrainLayout& layout, const TileMesh& mesh,
+                    std::uint32_t level) {
     DrapeRect rect;
     rect.level = std::min(look.leafDrapeLevel + layout.depth - level, look.drape.levels() - 1);
-    const auto across = texelsBetween(look.info.drapeFirst.x, look.info.texelsPerCell.x, mesh.firstColumn, mesh.lastColumn, rect.level);
-    const auto down = texelsBetween(look.info.drapeFirst.y, look.info.texelsPerCell.y, mesh.firstRow, mesh.lastRow, rect.level);
+    const auto across = texelsBetween(look.info.drapeFirst.x, look.info.texelsPerCell.x, mesh.firstColumn,
+                                      mesh.lastColumn, rect.level);
+    const auto down = texelsBetween(look.info.drapeFirst.y, look.info.texelsPerCell.y, mesh.firstRow,
+                                    mesh.lastRow, rect.level);
     rect.column = across.first;
     rect.row = down.first;
     rect.width = static_cast<int>(atlasSide(across.needed));
@@ -50,7 +54,8 @@ std::uint16_t unorm16(double value) {
     return static_cast<std::uint16_t>(std::floor(std::clamp(value, 0.0, 1.0) * 65535.0 + 0.5));
 }
 
-NodeVertex nodeVertex(const TerrainBuild& build, const TerrainLook& look, const DrapeRect& rect, const TileVertex& v) {
+NodeVertex nodeVertex(const TerrainBuild& build, const TerrainLook& look, const DrapeRect& rect,
+                      const TileVertex& v) {
     const glm::ivec3 at = build.grid.at(v.across, v.down, v.height);
     NodeVertex vertex{};
     vertex.x = static_cast<std::uint32_t>(at.x);
@@ -60,7 +65,8 @@ NodeVertex nodeVertex(const TerrainBuild& build, const TerrainLook& look, const 
     glm::vec4 colour(1.0f);
     if (look.drape.isThere()) {
         const double scale = std::ldexp(1.0, -static_cast<int>(rect.level));
-        const glm::dvec2 texel = (look.info.drapeFirst + look.info.texelsPerCell * glm::dvec2(v.column, v.row)) * scale;
+        const glm::dvec2 texel =
+            (look.info.drapeFirst + look.info.texelsPerCell * glm::dvec2(v.column, v.row)) * scale;
         vertex.u = unorm16((texel.x - static_cast<double>(rect.column)) / rect.width);
         vertex.v = unorm16((texel.y - static_cast<double>(rect.row)) / rect.height);
     } else {
@@ -72,13 +78,16 @@ NodeVertex nodeVertex(const TerrainBuild& build, const TerrainLook& look, const 
 
 float roundUpward(double value) {
     const auto rounded = static_cast<float>(value);
-    return static_cast<double>(rounded) < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
+    return static_cast<double>(rounded) < value
+               ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
+               : rounded;
 }
 
 // Bounds of everything, skirts too; area, benefit and normal of the surface alone.
 void measureTile(const TerrainBuild& build, const NodeMesh& mesh, BuiltNode& node) {
     const double step = build.grid.grid.step;
-    glm::dvec3 normals(0.0), low(std::numeric_limits<double>::max()), high(std::numeric_limits<double>::lowest());
+    glm::dvec3 normals(0.0), low(std::numeric_limits<double>::max()),
+        high(std::numeric_limits<double>::lowest());
     double area = 0.0;
     std::uint32_t surface = 0;
     const auto place = [&](std::size_t i) {
@@ -105,7 +114,7 @@ void measureTile(const TerrainBuild& build, const NodeMesh& mesh, BuiltNode& nod
     node.areaSquareMetres = static_cast<float>(squareMetres);
     node.staticBenefit = static_cast<float>(std::sqrt(surface * squareMetres));
     const double length = std::sqrt(glm::dot(normals, normals));
-    node.averageNormal = glm::vec3(normals / length);
+    node.averageNormal = length < 1e-3 * area ? glm::vec3(0.0f) : glm::vec3(normals / length);
     node.normalCoherence = static_cast<float>(std::min(1.0, length / area));
     for (int axis = 0; axis < 3; ++axis) {
         const double origin = build.grid.grid.origin[axis];
@@ -127,18 +136,21 @@ Result<NodeTexture> textureOf(const TerrainLook& look, const DrapeRect& rect) {
 
 }  // namespace
 
-std::uint32_t leafDrapeLevel(const TerrainInfo& info, const TerrainLayout& layout, const BuildSettings& settings) {
+std::uint32_t leafDrapeLevel(const TerrainInfo& info, const TerrainLayout& layout,
+                             const BuildSettings& settings) {
     std::uint32_t level = 0;
     const double texels = std::max(info.texelsPerCell.x, info.texelsPerCell.y) * layout.leafCells();
     // Up to two texels more at both ends; sides are rounded up by less than half.
-    while (atlasSide(static_cast<std::uint32_t>(std::min(1e6, std::ceil(std::ldexp(texels, -static_cast<int>(level)))) + 4.0)) >
+    while (atlasSide(static_cast<std::uint32_t>(
+               std::min(1e6, std::ceil(std::ldexp(texels, -static_cast<int>(level)))) + 4.0)) >
            static_cast<std::uint64_t>(settings.maxTextureSide)) {
         ++level;
     }
     return level;
 }
 
-Result<TerrainNode> makeTerrainNode(const TerrainBuild& build, const TerrainLook& look, const TerrainTile& tile) {
+Result<TerrainNode> makeTerrainNode(const TerrainBuild& build, const TerrainLook& look,
+                                    const TerrainTile& tile) {
     Result<TileMesh> mesh = makeTile(build, tile);
     if (!mesh) return passOn(mesh);
     TerrainNode node;

@@ -1,7 +1,7 @@
 // A tile's surface with skirts and texture: what is stored, and the record that the hierarchy keeps.
 // Comes from terrain_tile, terrain_border and terrain_drape; goes to build_terrain.
-// A skirt hangs straight down from a border where tiles of other levels can lie beside it, to one step below the lowest
-// that they or this border lie there; it takes normals and texture from the edge it hangs from.
+// A skirt hangs straight down from a border where tiles of other levels can lie beside it, to one step below
+// the lowest that they or this border lie there; it takes normals and texture from the edge it hangs from.
 #pragma once
 
 #include "build/terrain_drape.h"
@@ -15,7 +15,8 @@ struct TerrainLook {
     const TerrainInfo& info;
     const TerrainDrape& drape;
     const BuildSettings& settings;
-    std::uint32_t leafDrapeLevel = 0;  // of the picture's pyramid; above 0 where its texels are too many for a node
+    std::uint32_t leafDrapeLevel =
+        0;  // of the picture's pyramid; above 0 where its texels are too many for a node
 };
 
 // The first level of the picture at which a whole leaf's texels fit build.max_texture_side.

@@ -34,7 +34,8 @@ Result<double> hangSkirts(const TerrainBuild& build, TileMesh& tile) {
         widest = std::max(widest, gaps->widest);
         const std::uint8_t inner = s < 2 ? kSideAfter : kSideBefore;
         const auto hangs = [&](std::size_t stretch) {
-            return stretch + 1 < line.size() && (line[stretch].sides & inner) != 0 && gaps->reach[stretch] < kNoNeighbour;
+            return stretch + 1 < line.size() && (line[stretch].sides & inner) != 0 &&
+                   gaps->reach[stretch] < kNoNeighbour;
         };
         const std::unordered_map<std::int32_t, std::uint32_t> along = verticesAlong(tile, s, surface);
         // As seen from outside, a skirt goes to the right along the line above and the one to the right.
@@ -42,7 +43,8 @@ Result<double> hangSkirts(const TerrainBuild& build, TileMesh& tile) {
         std::unordered_map<std::uint32_t, std::uint32_t> hanging;
         const auto below = [&](std::size_t point) {
             const std::uint32_t top = along.at(line[point].place);
-            const auto [found, isNew] = hanging.emplace(top, static_cast<std::uint32_t>(tile.vertices.size()));
+            const auto [found, isNew] =
+                hanging.emplace(top, static_cast<std::uint32_t>(tile.vertices.size()));
             if (isNew) {
                 TileVertex vertex = tile.vertices[top];
                 double reach = vertex.height;

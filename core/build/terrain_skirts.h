@@ -5,8 +5,8 @@
 
 namespace fb {
 
-// Appends the skirts' vertices and triangles to the tile. Gives the widest gap to a neighbour of another level that
-// there would be without them, in grid units.
+// Appends the skirts' vertices and triangles to the tile. Gives the widest gap to a neighbour of another
+// level that there would be without them, in grid units.
 [[nodiscard]] Result<double> hangSkirts(const TerrainBuild& build, TileMesh& tile);
 
 }  // namespace fb

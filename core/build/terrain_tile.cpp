@@ -25,8 +25,11 @@ class TileMaker {
     }
 
     Result<TileMesh> run() {
-        window_ = {std::int64_t{column_} - reach_, std::int64_t{row_} - reach_, wide_ + 1 + 2 * reach_,
-                   high_ + 1 + 2 * reach_, {}};
+        window_ = {std::int64_t{column_} - reach_,
+                   std::int64_t{row_} - reach_,
+                   wide_ + 1 + 2 * reach_,
+                   high_ + 1 + 2 * reach_,
+                   {}};
         if (Result<void> read = build_.heights.read(stride_, window_); !read) return passOn(read);
         mesh_.firstColumn = fineOf(column_, build_.grid.columns);
         mesh_.lastColumn = fineOf(column_ + wide_, build_.grid.columns);
@@ -44,7 +47,8 @@ class TileMaker {
 
   private:
     [[nodiscard]] std::uint32_t fineOf(std::uint32_t sample, std::uint32_t count) const {
-        return static_cast<std::uint32_t>(std::min<std::uint64_t>(std::uint64_t{sample} << stride_, count - 1));
+        return static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(std::uint64_t{sample} << stride_, count - 1));
     }
     [[nodiscard]] std::uint32_t local(std::uint32_t i, std::uint32_t j) const { return j * (wide_ + 1) + i; }
     [[nodiscard]] const HeightSample& sample(std::uint32_t i, std::uint32_t j) const {
@@ -53,11 +57,13 @@ class TileMaker {
 
     // Above, left, right, below.
     Result<void> setBorders() {
-        mesh_.sides = {BorderSide{tile_.level, false, tile_.y, tile_.x}, BorderSide{tile_.level, true, tile_.x, tile_.y},
+        mesh_.sides = {BorderSide{tile_.level, false, tile_.y, tile_.x},
+                       BorderSide{tile_.level, true, tile_.x, tile_.y},
                        BorderSide{tile_.level, true, tile_.x + 1, tile_.y},
                        BorderSide{tile_.level, false, tile_.y + 1, tile_.x}};
         for (std::size_t s = 0; s < 4; ++s) {
-            Result<std::vector<BorderPoint>> line = borderOf(build_.heights, build_.grid, build_.layout, mesh_.sides[s]);
+            Result<std::vector<BorderPoint>> line =
+                borderOf(build_.heights, build_.grid, build_.layout, mesh_.sides[s]);
             if (!line) return passOn(line);
             mesh_.borders[s] = std::move(*line);
             if (!isLeaf_) mergeBorder(s);
@@ -65,7 +71,8 @@ class TileMaker {
         return {};
     }
 
-    // Border samples that are not kept become the nearest kept one; of two as near the one at the tile's corner.
+    // Border samples that are not kept become the nearest kept one; of two as near the one at the tile's
+    // corner.
     void mergeBorder(std::size_t s) {
         const bool vertical = mesh_.sides[s].vertical, far = s >= 2;
         const std::uint32_t count = vertical ? high_ : wide_;
@@ -80,7 +87,8 @@ class TileMaker {
         std::vector<std::uint32_t> kept;
         std::size_t next = 0;
         for (std::uint32_t n = 0; n <= count; ++n) {
-            if (next < mesh_.borders[s].size() && mesh_.borders[s][next].place == placeAt(n)) kept.push_back(n), ++next;
+            if (next < mesh_.borders[s].size() && mesh_.borders[s][next].place == placeAt(n))
+                kept.push_back(n), ++next;
         }
         for (std::size_t k = 0; k + 1 < kept.size(); ++k) {
             for (std::uint32_t n = kept[k] + 1; n < kept[k + 1]; ++n) {
@@ -100,7 +108,8 @@ class TileMaker {
         for (std::uint32_t j = 0; j < high_; ++j) {
             for (std::uint32_t i = 0; i < wide_; ++i) {
                 if (!sample(i, j).cell()) continue;
-                const std::uint32_t a = local(i, j), b = local(i + 1, j), c = local(i, j + 1), d = local(i + 1, j + 1);
+                const std::uint32_t a = local(i, j), b = local(i + 1, j), c = local(i, j + 1),
+                                    d = local(i + 1, j + 1);
                 add(a, c, d);
                 add(a, d, b);
             }
@@ -147,9 +156,11 @@ class TileMaker {
             border += points.back().locked ? 1 : 0;
         }
         // In proportion to the part of the whole square that is there; no fewer than the locked border needs.
-        const double whole = 2.0 * build_.layout.shapeCells(tile_.level) * build_.layout.shapeCells(tile_.level);
+        const double whole =
+            2.0 * build_.layout.shapeCells(tile_.level) * build_.layout.shapeCells(tile_.level);
         const double share = static_cast<double>(mesh_.triangles.size()) / whole;
-        const auto wanted = static_cast<std::size_t>(std::ceil(share * static_cast<double>(build_.desiredTriangles)));
+        const auto wanted =
+            static_cast<std::size_t>(std::ceil(share * static_cast<double>(build_.desiredTriangles)));
         const std::size_t aim = std::max({std::size_t{2}, wanted, border});
         const std::vector<glm::uvec3> simplified = simplifyHeightField(points, mesh_.triangles, aim);
         mesh_.stuck = static_cast<double>(simplified.size()) > kStuckFactor * static_cast<double>(aim);
@@ -173,13 +184,16 @@ class TileMaker {
         mesh_.vertices = std::move(vertices);
     }
 
-    // From the known samples up to reach_ away to both sides. Samples beyond the tile count, so that neighbours agree.
+    // From the known samples up to reach_ away to both sides. Samples beyond the tile count, so that
+    // neighbours agree.
     [[nodiscard]] glm::vec3 normalAt(const TileVertex& vertex) const {
-        const auto nearest = [&](std::uint32_t fine, std::uint32_t count) {  // the sample at the map's last place is the last
+        const auto nearest = [&](std::uint32_t fine,
+                                 std::uint32_t count) {  // the sample at the map's last place is the last
             return fine + 1 == count ? (std::int64_t{count} - 2 + (std::int64_t{1} << stride_)) >> stride_
                                      : std::int64_t{fine} >> stride_;
         };
-        const std::int64_t c = nearest(vertex.column, build_.grid.columns), r = nearest(vertex.row, build_.grid.rows);
+        const std::int64_t c = nearest(vertex.column, build_.grid.columns),
+                           r = nearest(vertex.row, build_.grid.rows);
         const auto slope = [&](bool vertical) {
             const std::vector<std::int32_t>& places = vertical ? build_.grid.down : build_.grid.across;
             const auto known = [&](std::int64_t by) -> const HeightSample* {
@@ -202,7 +216,8 @@ class TileMaker {
                 const auto n = static_cast<std::uint64_t>((vertical ? r : c) + by) << stride_;
                 return places[std::min<std::uint64_t>(n, places.size() - 1)];
             };
-            return static_cast<double>(known(high)->height() - known(low)->height()) / (placeAt(high) - placeAt(low));
+            return static_cast<double>(known(high)->height() - known(low)->height()) /
+                   (placeAt(high) - placeAt(low));
         };
         const glm::dvec3 normal(-slope(false), 1.0, -slope(true));
         return glm::vec3(normal / std::sqrt(glm::dot(normal, normal)));

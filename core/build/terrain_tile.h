@@ -1,8 +1,8 @@
-// The surface of one terrain tile, without skirts: a leaf has every cell of the map, two triangles each; a coarser
-// tile is shaped from samples of the pyramid and simplified to about build.desired_triangles. Vertices are samples.
-// Comes from terrain_heights; terrain_error measures it, terrain_node makes it a node.
-// Borders: both tiles beside one keep the same samples there (terrain_border.h); before simplification the other
-// border vertices are merged with the nearest kept one of their stretch, and the kept ones are locked.
+// The surface of one terrain tile, without skirts: a leaf has every cell of the map, two triangles each; a
+// coarser tile is shaped from samples of the pyramid and simplified to about build.desired_triangles.
+// Vertices are samples. Comes from terrain_heights; terrain_error measures it, terrain_node makes it a node.
+// Borders: both tiles beside one keep the same samples there (terrain_border.h); before simplification the
+// other border vertices are merged with the nearest kept one of their stretch, and the kept ones are locked.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@ struct TileVertex {
 struct TileMesh {
     std::vector<TileVertex> vertices;
     std::vector<glm::uvec3> triangles;  // counter-clockwise as seen from above
-    // The borders above, to the left, to the right and below, as this tile draws them, with their line's numbers.
+    // The borders above, to the left, to the right and below, as this tile draws them, with their line's
+    // numbers.
     std::array<std::vector<BorderPoint>, 4> borders;
     std::array<BorderSide, 4> sides;
     std::uint32_t firstColumn = 0, lastColumn = 0, firstRow = 0, lastRow = 0;  // of the map

@@ -1,5 +1,6 @@
 // The nodes of a terrain's quadtree, breadth first: which tiles have any cell, and how they hang together.
-// Comes from the height pyramid, whose cell of a tile's size says whether there is any below; goes to build_terrain.
+// Comes from the height pyramid, whose cell of a tile's size says whether there is any below; goes to
+// build_terrain.
 #pragma once
 
 #include <vector>

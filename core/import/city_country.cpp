@@ -1,5 +1,5 @@
-// The country around the procedural city as a height map and a picture: fields, meadows, woods, and rock where it is
-// steep.
+// The country around the procedural city as a height map and a picture: fields, meadows, woods, and rock
+// where it is steep.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,7 +43,8 @@ class Country final : public TerrainSource {
         info_.rows = static_cast<std::uint32_t>(std::ceil(depth / cell)) + 1;
         info_.cellMetres = glm::dvec2(cell);
         // On whole cells.
-        info_.firstSample = {std::floor((ground.x0 - margin) / cell) * cell, 0.0, std::floor((ground.z0 - margin) / cell) * cell};
+        info_.firstSample = {std::floor((ground.x0 - margin) / cell) * cell, 0.0,
+                             std::floor((ground.z0 - margin) / cell) * cell};
         info_.drapeWidth = static_cast<int>(info_.columns) * kTexelsPerCell;
         info_.drapeHeight = static_cast<int>(info_.rows) * kTexelsPerCell;
         info_.texelsPerCell = glm::dvec2(kTexelsPerCell);
@@ -85,7 +86,8 @@ class Country final : public TerrainSource {
                 const Tint tint = colourAt(x, z, texel);
                 const std::array channels{tint.r, tint.g, tint.b};
                 for (std::size_t c = 0; c < 3; ++c) {
-                    row[static_cast<std::size_t>(u) * 3 + c] = static_cast<std::uint8_t>(std::clamp(channels[c], 0.0, 254.5) + 0.5);
+                    row[static_cast<std::size_t>(u) * 3 + c] =
+                        static_cast<std::uint8_t>(std::clamp(channels[c], 0.0, 254.5) + 0.5);
                 }
             }
             if (Result<void> taken = take(static_cast<std::uint32_t>(v), row); !taken) return taken;
@@ -112,21 +114,28 @@ class Country final : public TerrainSource {
     // Fields are cells of a lattice whose lines wander; each has its crop, some are woods.
     [[nodiscard]] Tint colourAt(double x, double z, double texel) const {
         const std::uint32_t s = hills_.seed + 201;
-        const double wx = x + 22.0 * smoothNoise(s, x, z, 160.0), wz = z + 22.0 * smoothNoise(s + 1, x, z, 160.0);
+        const double wx = x + 22.0 * smoothNoise(s, x, z, 160.0),
+                     wz = z + 22.0 * smoothNoise(s + 1, x, z, 160.0);
         constexpr double kFieldWide = 95.0, kFieldDeep = 70.0;
         const double fx = std::floor(wx / kFieldWide), fz = std::floor(wz / kFieldDeep);
-        const std::uint32_t field = latticeHash(s + 2, static_cast<std::int32_t>(fx), static_cast<std::int32_t>(fz));
-        constexpr std::array<Tint, 6> kCrops{{{126, 138, 70}, {168, 156, 92}, {98, 122, 58}, {146, 128, 88}, {112, 134, 66}, {186, 172, 110}}};
+        const std::uint32_t field =
+            latticeHash(s + 2, static_cast<std::int32_t>(fx), static_cast<std::int32_t>(fz));
+        constexpr std::array<Tint, 6> kCrops{
+            {{126, 138, 70}, {168, 156, 92}, {98, 122, 58}, {146, 128, 88}, {112, 134, 66}, {186, 172, 110}}};
         Tint tint = kCrops[field % kCrops.size()];
         // Furrows along one side of the field, hedges along its edges.
         const double along = (field & 64u) != 0 ? wx : wz;
         const double furrow = 4.0 * texel;
-        tint = mix(tint, {tint.r * 0.9, tint.g * 0.9, tint.b * 0.86}, std::abs(2.0 * (along / furrow - std::floor(along / furrow)) - 1.0));
-        const double edge = std::min({wx - fx * kFieldWide, (fx + 1.0) * kFieldWide - wx, wz - fz * kFieldDeep, (fz + 1.0) * kFieldDeep - wz});
+        tint = mix(tint, {tint.r * 0.9, tint.g * 0.9, tint.b * 0.86},
+                   std::abs(2.0 * (along / furrow - std::floor(along / furrow)) - 1.0));
+        const double edge = std::min({wx - fx * kFieldWide, (fx + 1.0) * kFieldWide - wx,
+                                      wz - fz * kFieldDeep, (fz + 1.0) * kFieldDeep - wz});
         tint = mix({70, 88, 44}, tint, smoothBetween(1.2, 3.0, edge));
         const double meadow = smoothNoise(s + 3, x, z, 240.0) + 0.4 * smoothNoise(s + 4, x, z, 60.0);
         const double wild = smoothBetween(0.05, 0.3, meadow);
-        const double blotch = smoothNoise(s + 5, x, z, 9.0), grain = signedUnit(latticeHash(s + 6, static_cast<std::int32_t>(std::floor(x / texel)), static_cast<std::int32_t>(std::floor(z / texel))));
+        const double blotch = smoothNoise(s + 5, x, z, 9.0),
+                     grain = signedUnit(latticeHash(s + 6, static_cast<std::int32_t>(std::floor(x / texel)),
+                                                    static_cast<std::int32_t>(std::floor(z / texel))));
         tint = mix(tint, {104 + 8 * blotch, 128 + 8 * blotch, 62 + 5 * blotch}, wild);
         const double wood = smoothNoise(s + 7, x, z, 190.0) + 0.3 * smoothNoise(s + 8, x, z, 24.0);
         const Tint trees{48 + 14 * blotch, 72 + 16 * blotch, 36 + 8 * blotch};
@@ -135,7 +144,8 @@ class Country final : public TerrainSource {
         const double gx = (hills_.heightAt(x + step, z) - hills_.heightAt(x - step, z)) / (2.0 * step);
         const double gz = (hills_.heightAt(x, z + step) - hills_.heightAt(x, z - step)) / (2.0 * step);
         const double slope = std::sqrt(gx * gx + gz * gz);
-        tint = mix(tint, {128 + 12 * blotch, 122 + 12 * blotch, 112 + 11 * blotch}, smoothBetween(0.42, 0.6, slope + 0.05 * blotch));
+        tint = mix(tint, {128 + 12 * blotch, 122 + 12 * blotch, 112 + 11 * blotch},
+                   smoothBetween(0.42, 0.6, slope + 0.05 * blotch));
         const double shade = 1.0 + 0.05 * static_cast<double>(grain);
         return {tint.r * shade, tint.g * shade, tint.b * shade};
     }

@@ -1,6 +1,7 @@
-// The hills under and around the procedural city (`city --terrain`): gentle where the city stands, mountains beyond.
-// Comes from CityOptions; goes to the plan (where buildings stand), to the meshes, and as a height map with a painted
-// picture to build/build_terrain. Only integer hashes and + - * / on doubles: the same bits on every machine.
+// The hills under and around the procedural city (`city --terrain`): gentle where the city stands, mountains
+// beyond. Comes from CityOptions; goes to the plan (where buildings stand), to the meshes, and as a height
+// map with a painted picture to build/build_terrain. Only integer hashes and + - * / on doubles: the same
+// bits on every machine.
 #pragma once
 
 #include <cstdint>
@@ -28,14 +29,15 @@ struct Hills {
     [[nodiscard]] Range within(double left, double top, double right, double bottom) const;
 };
 
-// Foundations below all walls of the unit's buildings, and a strip below the unit's border, so that no gap shows where
-// the ground falls away or neighbouring units sample it differently.
+// Foundations below all walls of the unit's buildings, and a strip below the unit's border, so that no gap
+// shows where the ground falls away or neighbouring units sample it differently.
 void addFoundations(const CityPlan& plan, const Unit& unit, std::uint32_t material, MeshBuilder& mesh);
 
-// The country: three times as wide and deep as the city, which stands in a hole of it; around that hole's edge the
-// country reaches a little under the city, lower than its ground.
+// The country: three times as wide and deep as the city, which stands in a hole of it; around that hole's
+// edge the country reaches a little under the city, lower than its ground.
 [[nodiscard]] std::unique_ptr<TerrainSource> makeCountry(const CityPlan& plan);
 
-inline constexpr double kUnderCity = 0.5;  // metres by which the country lies below the city's ground at its edge
+inline constexpr double kUnderCity =
+    0.5;  // metres by which the country lies below the city's ground at its edge
 
 }  // namespace fb::city

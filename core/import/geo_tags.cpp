@@ -55,7 +55,8 @@ struct TiffTags {
     [[nodiscard]] bool values(const std::uint8_t* entry, std::uint16_t type, std::uint64_t each,
                               std::vector<std::uint8_t>& into) const {
         if (number<std::uint16_t>(entry + 2) != type) return false;
-        const std::uint64_t count = isBig ? number<std::uint64_t>(entry + 4) : number<std::uint32_t>(entry + 4);
+        const std::uint64_t count =
+            isBig ? number<std::uint64_t>(entry + 4) : number<std::uint32_t>(entry + 4);
         if (count > kMostTagBytes / each) return false;
         const std::uint8_t* inside = entry + (isBig ? 12 : 8);
         const std::uint64_t size = count * each;
@@ -80,16 +81,20 @@ struct TiffTags {
             case kPixelScale: {
                 const std::vector<double> scale = reals(entry);
                 if (scale.size() < 2 || !(scale[0] > kLeastScale) || !(scale[1] > kLeastScale)) return;
-                if (std::isfinite(scale[0]) && std::isfinite(scale[1])) found.pixelMetres = {scale[0], scale[1]};
+                if (std::isfinite(scale[0]) && std::isfinite(scale[1]))
+                    found.pixelMetres = {scale[0], scale[1]};
                 return;
             }
-            case kTiePoint: tie = reals(entry); return;
+            case kTiePoint:
+                tie = reals(entry);
+                return;
             case kGeoKeys:
                 // Four shorts a key: number, where its value lies (0: here), count, value.
                 if (!values(entry, 3, 2, bytes)) return;
                 for (std::size_t i = 8; i + 8 <= bytes.size(); i += 8) {
                     if (number<std::uint16_t>(&bytes[i]) != kRasterTypeKey) continue;
-                    pixelIsPoint = number<std::uint16_t>(&bytes[i + 2]) == 0 && number<std::uint16_t>(&bytes[i + 6]) == 2;
+                    pixelIsPoint = number<std::uint16_t>(&bytes[i + 2]) == 0 &&
+                                   number<std::uint16_t>(&bytes[i + 6]) == 2;
                 }
                 return;
             case kGdalNoData: {
@@ -100,7 +105,8 @@ struct TiffTags {
                 if (toReal(trimmed(text), value)) found.noData = value;
                 return;
             }
-            default: return;
+            default:
+                return;
         }
     }
     void place() {

@@ -50,8 +50,8 @@ struct ImageRows::Input {
     bool read(std::uint32_t first, std::uint32_t end, int channels, OIIO::TypeDesc type, void* into) {
         const int from = spec.y + static_cast<int>(first), to = spec.y + static_cast<int>(end);
         if (spec.tile_width > 0) {
-            return image->read_tiles(0, 0, spec.x, spec.x + spec.width, from, to, spec.z, spec.z + 1, 0, channels,
-                                     type, into);
+            return image->read_tiles(0, 0, spec.x, spec.x + spec.width, from, to, spec.z, spec.z + 1, 0,
+                                     channels, type, into);
         }
         return image->read_scanlines(0, 0, from, to, spec.z, 0, channels, type, into);
     }
@@ -86,15 +86,32 @@ OIIO::TypeDesc plainType(const OIIO::ImageSpec& spec) {
 
 bool convert(OIIO::TypeDesc type, const std::vector<std::uint8_t>& bytes, std::span<double> out) {
     switch (type.basetype) {
-        case OIIO::TypeDesc::UINT8: toDoubles<std::uint8_t>(bytes, out); return true;
-        case OIIO::TypeDesc::INT8: toDoubles<std::int8_t>(bytes, out); return true;
-        case OIIO::TypeDesc::UINT16: toDoubles<std::uint16_t>(bytes, out); return true;
-        case OIIO::TypeDesc::INT16: toDoubles<std::int16_t>(bytes, out); return true;
-        case OIIO::TypeDesc::UINT32: toDoubles<std::uint32_t>(bytes, out); return true;
-        case OIIO::TypeDesc::INT32: toDoubles<std::int32_t>(bytes, out); return true;
-        case OIIO::TypeDesc::FLOAT: toDoubles<float>(bytes, out); return true;
-        case OIIO::TypeDesc::DOUBLE: toDoubles<double>(bytes, out); return true;
-        default: return false;
+        case OIIO::TypeDesc::UINT8:
+            toDoubles<std::uint8_t>(bytes, out);
+            return true;
+        case OIIO::TypeDesc::INT8:
+            toDoubles<std::int8_t>(bytes, out);
+            return true;
+        case OIIO::TypeDesc::UINT16:
+            toDoubles<std::uint16_t>(bytes, out);
+            return true;
+        case OIIO::TypeDesc::INT16:
+            toDoubles<std::int16_t>(bytes, out);
+            return true;
+        case OIIO::TypeDesc::UINT32:
+            toDoubles<std::uint32_t>(bytes, out);
+            return true;
+        case OIIO::TypeDesc::INT32:
+            toDoubles<std::int32_t>(bytes, out);
+            return true;
+        case OIIO::TypeDesc::FLOAT:
+            toDoubles<float>(bytes, out);
+            return true;
+        case OIIO::TypeDesc::DOUBLE:
+            toDoubles<double>(bytes, out);
+            return true;
+        default:
+            return false;
     }
 }
 
@@ -118,7 +135,8 @@ Result<ImageRows> ImageRows::open(const std::filesystem::path& file, const std::
     rows.input_ = std::make_unique<Input>();
     rows.input_->image = OIIO::ImageInput::create(plugin->name);
     if (!rows.input_->image) {
-        return failure(file.string(), {}, std::string("needs the plugin '") + plugin->name + "' of OpenImageIO");
+        return failure(file.string(), {},
+                       std::string("needs the plugin '") + plugin->name + "' of OpenImageIO");
     }
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
@@ -126,7 +144,8 @@ Result<ImageRows> ImageRows::open(const std::filesystem::path& file, const std::
     if (!rows.input_->image->open(file.string(), spec, config)) return brokenImage(file, *rows.input_->image);
     const std::string size = std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels";
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0) {
-        return failure(file.string(), "header", "has " + size + " of " + std::to_string(spec.nchannels) + " channels");
+        return failure(file.string(), "header",
+                       "has " + size + " of " + std::to_string(spec.nchannels) + " channels");
     }
     if (spec.width > kMaxRowsSide || spec.height > kMaxRowsSide) {
         return failure(file.string(), "header", "has " + size,
@@ -134,7 +153,8 @@ Result<ImageRows> ImageRows::open(const std::filesystem::path& file, const std::
     }
     const double decoded = static_cast<double>(spec.width) * spec.height * spec.nchannels *
                            static_cast<double>(spec.format.size());
-    if (decoded > (static_cast<double>(reader->sizeBytes()) + 64.0) * static_cast<double>(kMaxTextureInflation)) {
+    if (decoded >
+        (static_cast<double>(reader->sizeBytes()) + 64.0) * static_cast<double>(kMaxTextureInflation)) {
         return failure(file.string(), "header",
                        "promises " + size + " in " + std::to_string(reader->sizeBytes()) + " bytes",
                        "the file is cut off or damaged");
@@ -156,7 +176,8 @@ Result<void> ImageRows::readValues(
         if (!input_->read(row, end, 1, type, bytes.data())) return brokenImage(file_, *input_->image);
         const std::span<double> out = std::span(values).first(std::size_t{end - row} * width_);
         if (!convert(type, bytes, out)) {
-            return failure(file_.string(), "header", std::string("has pixels of a type that holds no heights: ") + type.c_str());
+            return failure(file_.string(), "header",
+                           std::string("has pixels of a type that holds no heights: ") + type.c_str());
         }
         if (Result<void> taken = take(row, out); !taken) return taken;
     }
@@ -167,8 +188,8 @@ Result<void> ImageRows::readColours(
     const std::function<Result<void>(std::uint32_t, std::span<const std::uint8_t>)>& take) {
     const OIIO::ImageSpec& spec = input_->spec;
     const int channels = spec.nchannels >= 3 ? 3 : 1;
-    const bool linear = spec.get_string_attribute("oiio:ColorSpace") == "Linear" &&
-                        (spec.format.is_floating_point());
+    const bool linear =
+        spec.get_string_attribute("oiio:ColorSpace") == "Linear" && (spec.format.is_floating_point());
     const std::uint32_t strip = input_->stripRows();
     const std::size_t rowValues = std::size_t{width_} * static_cast<std::size_t>(channels);
     std::vector<float> light(linear ? strip * rowValues : 0);

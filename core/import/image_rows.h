@@ -1,5 +1,6 @@
-// Reads an image of any size row by row from the top, holding a strip of rows (of tiles, where it is tiled) at a time.
-// For height maps and for drapes; OpenImageIO decodes. One place, so that a store of tiles can take its place.
+// Reads an image of any size row by row from the top, holding a strip of rows (of tiles, where it is tiled)
+// at a time. For height maps and for drapes; OpenImageIO decodes. One place, so that a store of tiles can
+// take its place.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ class ImageRows {
     ~ImageRows();
     ImageRows(ImageRows&&) noexcept;
 
-    // Checks the header against caps and against the file's length before any pixel is read. `what` it is for:
-    // "a height map".
+    // Checks the header against caps and against the file's length before any pixel is read. `what` it is
+    // for: "a height map".
     [[nodiscard]] static Result<ImageRows> open(const std::filesystem::path& file, const std::string& what);
 
     [[nodiscard]] std::uint32_t width() const { return width_; }

@@ -31,7 +31,8 @@ class TerrainFile final : public TerrainSource {
         std::vector<float> heights;
         return image->readValues([&](std::uint32_t first, std::span<const double> values) -> Result<void> {
             heights.resize(values.size());
-            std::transform(values.begin(), values.end(), heights.begin(), [&](double v) { return heightOf(v); });
+            std::transform(values.begin(), values.end(), heights.begin(),
+                           [&](double v) { return heightOf(v); });
             return take(first, heights);
         });
     }
@@ -45,7 +46,8 @@ class TerrainFile final : public TerrainSource {
     [[nodiscard]] float heightOf(double value) const {
         constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
         // A no-data value is often written with more digits than the pixels have.
-        if (noData_ && (value == *noData_ || static_cast<float>(value) == static_cast<float>(*noData_))) return kUnknown;
+        if (noData_ && (value == *noData_ || static_cast<float>(value) == static_cast<float>(*noData_)))
+            return kUnknown;
         const double metres = value * options_.heightScale;
         return std::abs(metres) <= kMostMetres ? static_cast<float>(metres) : kUnknown;
     }
@@ -78,7 +80,8 @@ class TerrainScene final : public BlockSource {
 struct PlanBox {
     glm::dvec2 low, high;
     [[nodiscard]] bool touches(const PlanBox& other) const {
-        return low.x <= other.high.x && low.y <= other.high.y && other.low.x <= high.x && other.low.y <= high.y;
+        return low.x <= other.high.x && low.y <= other.high.y && other.low.x <= high.x &&
+               other.low.y <= high.y;
     }
 };
 
@@ -150,7 +153,8 @@ class TerrainOpener {
     // The map's upper left sample is the middle of its first pixel.
     void place() {
         const glm::dvec2 span = glm::dvec2(map_.columns - 1, map_.rows - 1) * map_.cellMetres;
-        const double south = info_.up == UpAxis::y ? 1.0 : -1.0;  // of the second level axis per metre southward
+        const double south =
+            info_.up == UpAxis::y ? 1.0 : -1.0;  // of the second level axis per metre southward
         const auto boxAt = [&](const glm::dvec2& first) {
             const glm::dvec2 last = first + glm::dvec2(span.x, south * span.y);
             return PlanBox{glm::min(first, last), glm::max(first, last)};
@@ -167,16 +171,20 @@ class TerrainOpener {
             const PlanBox below{levelOf(info_.origin + info_.bounds.min, info_.up),
                                 levelOf(info_.origin + info_.bounds.max, info_.up)};
             if (box.touches(below)) {
-                map_.firstSample = placeOf(first - levelOf(info_.origin, info_.up), info_.up) -
-                                   info_.origin * (info_.up == UpAxis::y ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
+                map_.firstSample =
+                    placeOf(first - levelOf(info_.origin, info_.up), info_.up) -
+                    info_.origin * (info_.up == UpAxis::y ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
                 return;
             }
-            note("its coordinates are not under the meshes: its middle is put under theirs, heights as they are");
+            note(
+                "its coordinates are not under the meshes: its middle is put under theirs, heights as they "
+                "are");
         }
         const glm::dvec2 middle = meshes_ ? levelOf(info_.bounds.centre(), info_.up) : glm::dvec2(0.0);
         map_.firstSample = placeOf(middle - 0.5 * glm::dvec2(span.x, south * span.y), info_.up);
         if (meshes_) {
-            map_.firstSample -= info_.origin * (info_.up == UpAxis::y ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
+            map_.firstSample -=
+                info_.origin * (info_.up == UpAxis::y ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1));
         }
     }
 
@@ -195,7 +203,8 @@ class TerrainOpener {
         if (tags->cornerEastNorth && tags->pixelMetres && corner_) {
             // Coordinates run north, rows south.
             const glm::dvec2 first = *corner_ + 0.5 * map_.cellMetres * glm::dvec2(1.0, -1.0);
-            const glm::dvec2 inside = (first - *tags->cornerEastNorth) * glm::dvec2(1.0, -1.0) / *tags->pixelMetres;
+            const glm::dvec2 inside =
+                (first - *tags->cornerEastNorth) * glm::dvec2(1.0, -1.0) / *tags->pixelMetres;
             const glm::dvec2 each = map_.cellMetres / *tags->pixelMetres;
             const glm::dvec2 last = inside + each * (pixels - 1.0);
             if (last.x > 0.0 && last.y > 0.0 && inside.x < texels.x && inside.y < texels.y) {
@@ -212,17 +221,22 @@ class TerrainOpener {
     Result<void> hash() {
         Hasher hasher;
         hasher.text("terrain").number(kTerrainImportVersion).number(static_cast<std::uint64_t>(map_.up));
-        for (const std::optional<std::filesystem::path>& file : {std::optional(options_.heights), options_.drape}) {
+        for (const std::optional<std::filesystem::path>& file :
+             {std::optional(options_.heights), options_.drape}) {
             if (!file) continue;
             Result<std::uint64_t> content = hashFile(*file);
             if (!content) return passOn(content);
             hasher.number(*content);
         }
-        hasher.number(options_.heightScale).number(std::uint64_t{noData_ ? 1u : 0u}).number(noData_.value_or(0.0));
-        for (const glm::dvec2& v : {map_.cellMetres, map_.drapeFirst, map_.texelsPerCell}) hasher.number(v.x).number(v.y);
+        hasher.number(options_.heightScale)
+            .number(std::uint64_t{noData_ ? 1u : 0u})
+            .number(noData_.value_or(0.0));
+        for (const glm::dvec2& v : {map_.cellMetres, map_.drapeFirst, map_.texelsPerCell})
+            hasher.number(v.x).number(v.y);
         for (int axis = 0; axis < 3; ++axis) hasher.number(map_.firstSample[axis]);
         map_.sourceHash = hasher.digest();
-        info_.sourceHash = meshes_ ? Hasher().number(info_.sourceHash).number(map_.sourceHash).digest() : map_.sourceHash;
+        info_.sourceHash =
+            meshes_ ? Hasher().number(info_.sourceHash).number(map_.sourceHash).digest() : map_.sourceHash;
         return {};
     }
 
@@ -247,7 +261,8 @@ Result<void> checkOptions(const TerrainOptions& options) {
 
 }  // namespace
 
-Result<std::unique_ptr<BlockSource>> addTerrain(std::unique_ptr<BlockSource> meshes, const TerrainOptions& options) {
+Result<std::unique_ptr<BlockSource>> addTerrain(std::unique_ptr<BlockSource> meshes,
+                                                const TerrainOptions& options) {
     if (Result<void> checked = checkOptions(options); !checked) return passOn(checked);
     try {
         return TerrainOpener(std::move(meshes), options).run();

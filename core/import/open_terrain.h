@@ -1,9 +1,9 @@
-// Opens a height map (TIFF, PNG or OpenEXR) with an optional picture on it and places it under the meshes of a scene,
-// or alone. Comes from the command line; the BlockSource goes to build/.
-// Size and place: a GeoTIFF's pixel scale and tie point; --cell-size beats the scale; where nothing is known, 1 m.
-// Coordinates are easting and northing: x is east, and north is -z where y is up and +y where z is up. A map with
-// coordinates goes where they say, if it lies under the meshes or there are none; any other map has its middle under
-// the middle of the meshes, or at the origin. Heights are never moved. A picture with coordinates of its own goes
+// Opens a height map (TIFF, PNG or OpenEXR) with an optional picture on it and places it under the meshes of
+// a scene, or alone. Comes from the command line; the BlockSource goes to build/. Size and place: a GeoTIFF's
+// pixel scale and tie point; --cell-size beats the scale; where nothing is known, 1 m. Coordinates are
+// easting and northing: x is east, and north is -z where y is up and +y where z is up. A map with coordinates
+// goes where they say, if it lies under the meshes or there are none; any other map has its middle under the
+// middle of the meshes, or at the origin. Heights are never moved. A picture with coordinates of its own goes
 // where they say too, any other is stretched over the whole map, edge to edge of the outer pixels.
 #pragma once
 
@@ -30,8 +30,8 @@ struct TerrainOptions {
 [[nodiscard]] Result<std::unique_ptr<BlockSource>> addTerrain(std::unique_ptr<BlockSource> meshes,
                                                               const TerrainOptions& options);
 
-// Reads through `source` once and fills in the range of heights. Refused: a map without a cell, one of which nothing
-// is known. Gives the number of samples that are not known.
+// Reads through `source` once and fills in the range of heights. Refused: a map without a cell, one of which
+// nothing is known. Gives the number of samples that are not known.
 [[nodiscard]] Result<std::uint64_t> surveyTerrain(const TerrainSource& source, TerrainInfo& info);
 
 // A square way of at most 120 m a side on the ground around the middle, where the ground is known; else none.

@@ -1,7 +1,7 @@
-// A height map as the builder of terrains takes it: heights and, where there is one, the picture that covers them,
-// both read row by row from the top, so that neither need fit into memory. Comes from an image file (open_terrain.h)
-// or from the generated country around the city; goes to build/build_terrain.h.
-// A sample is a vertex; four samples around one cell that are all known make two triangles, other cells are holes.
+// A height map as the builder of terrains takes it: heights and, where there is one, the picture that covers
+// them, both read row by row from the top, so that neither need fit into memory. Comes from an image file
+// (open_terrain.h) or from the generated country around the city; goes to build/build_terrain.h. A sample is
+// a vertex; four samples around one cell that are all known make two triangles, other cells are holes.
 // Columns run east. Rows run south: along +z where y is up and along -y where z is up.
 #pragma once
 
@@ -25,8 +25,8 @@ struct TerrainInfo {
     float lowestMetres = 0.0f, highestMetres = 0.0f;  // of all heights that are known
     std::uint64_t sourceHash = 0;                     // of heights, picture and placement
 
-    int drapeWidth = 0, drapeHeight = 0;   // texels; 0 without a picture
-    glm::dvec2 drapeFirst{0.5};            // texel coordinates of the first sample; (0,0) is the picture's corner
+    int drapeWidth = 0, drapeHeight = 0;  // texels; 0 without a picture
+    glm::dvec2 drapeFirst{0.5};  // texel coordinates of the first sample; (0,0) is the picture's corner
     glm::dvec2 texelsPerCell{1.0};
     bool drapeLossless = false;
 

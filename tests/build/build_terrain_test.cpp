@@ -21,7 +21,9 @@ std::string bytesOf(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::vector<float> flat(std::size_t count) { return std::vector<float>(count, 2.0f); }
+std::vector<float> flat(std::size_t count) {
+    return std::vector<float>(count, 2.0f);
+}
 
 // Nodes a level, and triangles without skirts a level.
 struct LevelCounts {
@@ -115,7 +117,8 @@ TEST(BuildTerrain, LeavesHoldEveryHeightExactlyAndNoCellTwice) {
     std::size_t expectedCells = 0;
     for (std::uint32_t r = 0; r + 1 < 18; ++r) {
         for (std::uint32_t c = 0; c + 1 < 23; ++c) {
-            const float all = terrain.at(c, r) + terrain.at(c + 1, r) + terrain.at(c, r + 1) + terrain.at(c + 1, r + 1);
+            const float all =
+                terrain.at(c, r) + terrain.at(c + 1, r) + terrain.at(c, r + 1) + terrain.at(c + 1, r + 1);
             const std::size_t triangles = cells.count({static_cast<int>(c), static_cast<int>(r)});
             EXPECT_EQ(triangles, all == all ? 2u : 0u) << c << " " << r;
             expectedCells += all == all ? 1 : 0;
@@ -123,7 +126,8 @@ TEST(BuildTerrain, LeavesHoldEveryHeightExactlyAndNoCellTwice) {
     }
     EXPECT_EQ(cells.size(), 2 * expectedCells);
     for (const auto& [at, height] : seen) {
-        EXPECT_EQ(height, static_cast<double>(terrain.at(static_cast<std::uint32_t>(at.first), static_cast<std::uint32_t>(at.second))));
+        EXPECT_EQ(height, static_cast<double>(terrain.at(static_cast<std::uint32_t>(at.first),
+                                                         static_cast<std::uint32_t>(at.second))));
     }
 }
 
@@ -133,8 +137,8 @@ TEST(BuildTerrain, TilesOfOneLevelHaveTheSameVerticesAlongTheirBorder) {
     ASSERT_EQ(test::buildLine(terrain, folder / "s"), "built");
     const Scene scene = openScene(folder / "s").value();
     const Hierarchy& h = scene.hierarchy;
-    // By level and line: edges of triangles that lie on it, with their heights. Both sides have each edge, or one does
-    // where the other has a hole.
+    // By level and line: edges of triangles that lie on it, with their heights. Both sides have each edge, or
+    // one does where the other has a hole.
     int shared = 0;
     for (std::uint32_t level = 1; level <= h.maxLevel(); ++level) {
         const int side = 4 << (h.maxLevel() - level);
@@ -164,8 +168,9 @@ TEST(BuildTerrain, TilesOfOneLevelHaveTheSameVerticesAlongTheirBorder) {
             EXPECT_LE(count, 2);
             shared += count == 2 ? 1 : 0;
             for (const auto& [at, height] : heights) {
-                const bool inside = edge[0] == edge[3] ? at.first == edge[0] && at.second > edge[2] && at.second < edge[5]
-                                                       : at.second == edge[2] && at.first > edge[0] && at.first < edge[3];
+                const bool inside = edge[0] == edge[3]
+                                        ? at.first == edge[0] && at.second > edge[2] && at.second < edge[5]
+                                        : at.second == edge[2] && at.first > edge[0] && at.first < edge[3];
                 EXPECT_FALSE(inside) << "level " << level << ": a vertex at " << at.first << " " << at.second;
             }
         }
@@ -177,7 +182,8 @@ TEST(BuildTerrain, GivesTheSameBytesWithOneThreadAndWithFour) {
     const ScratchFolder folder;
     HandMadeTerrain terrain = test::randomTerrain(200, 150, 5, 0.4);
     for (const auto& [name, threads] : {std::pair{"one", 1}, {"four", 4}}) {
-        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
         ASSERT_EQ(test::buildLine(terrain, folder / name), "built");
     }
     for (const char* file : {"hierarchy.bin", "scene.toml", "blocks/00000.pack"}) {
@@ -192,8 +198,11 @@ TEST(BuildTerrain, AStoppedBuildGoesOnWhereItWas) {
     ASSERT_EQ(test::buildLine(terrain, folder / "whole"), "built");
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     int told = 0;
-    const Progress stopAfterSome = [&](std::string_view phase, double) { return phase != "build terrain" || ++told < 4; };
-    Result<BuildReport> stopped = buildScene(test::TerrainAlone(terrain), test::terrainSettings(16), folder / "s", stopAfterSome);
+    const Progress stopAfterSome = [&](std::string_view phase, double) {
+        return phase != "build terrain" || ++told < 4;
+    };
+    Result<BuildReport> stopped =
+        buildScene(test::TerrainAlone(terrain), test::terrainSettings(16), folder / "s", stopAfterSome);
     ASSERT_FALSE(stopped);
     EXPECT_NE(stopped.error().oneLine().find("was stopped"), std::string::npos);
     const std::filesystem::path part = folder / "s/terrain-work/blocks/00000.pack";
@@ -204,7 +213,8 @@ TEST(BuildTerrain, AStoppedBuildGoesOnWhereItWas) {
         if (std::filesystem::exists(part)) later = std::filesystem::last_write_time(part);
         return true;
     };
-    Result<BuildReport> resumed = buildScene(test::TerrainAlone(terrain), test::terrainSettings(16), folder / "s", lookAtPart);
+    Result<BuildReport> resumed =
+        buildScene(test::TerrainAlone(terrain), test::terrainSettings(16), folder / "s", lookAtPart);
     ASSERT_TRUE(resumed);
     EXPECT_EQ(later, written);  // the finished part was taken over
     EXPECT_EQ(bytesOf(folder / "s/blocks/00000.pack"), bytesOf(folder / "whole/blocks/00000.pack"));
@@ -212,7 +222,8 @@ TEST(BuildTerrain, AStoppedBuildGoesOnWhereItWas) {
 
     // A finished terrain is taken over without a look at its heights.
     const int reads = terrain.reads;
-    Result<BuildReport> again = buildScene(test::TerrainAlone(terrain), test::terrainSettings(16), folder / "s", {});
+    Result<BuildReport> again =
+        buildScene(test::TerrainAlone(terrain), test::terrainSettings(16), folder / "s", {});
     ASSERT_TRUE(again);
     EXPECT_EQ(again->reusedBlocks, 1u);
     EXPECT_EQ(again->leafTriangles, resumed->leafTriangles);

@@ -1,5 +1,5 @@
-// Tiles of a terrain one by one: errors are bounds, borders keep what matters, skirts reach every neighbour, cliffs do
-// not fold.
+// Tiles of a terrain one by one: errors are bounds, borders keep what matters, skirts reach every neighbour,
+// cliffs do not fold.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -28,7 +28,8 @@ struct TerrainWorld {
         EXPECT_TRUE(terrain.survey());
         grid = makeTerrainGrid(terrain.info()).value();
         layout = layOutTerrain(terrain.info().columns, terrain.info().rows, desired);
-        heights.emplace(TerrainHeights::make(terrain, grid, layout.sideExponent(0) + 1, folder.path()).value());
+        heights.emplace(
+            TerrainHeights::make(terrain, grid, layout.sideExponent(0) + 1, folder.path()).value());
     }
     [[nodiscard]] TerrainBuild build() const { return {*heights, grid, layout, 16}; }
 };
@@ -36,7 +37,8 @@ struct TerrainWorld {
 TEST(KeepOnBorder, KeepsEndsChangesAndTheFarthestSamples) {
     std::vector<BorderPoint> line;
     const int heights[] = {0, 0, 0, 90, 0, 0, 0, 40, 0};
-    for (int i = 0; i < 9; ++i) line.push_back({i * 10, heights[i], static_cast<std::uint8_t>(i < 8 ? 3 : 0)});
+    for (int i = 0; i < 9; ++i)
+        line.push_back({i * 10, heights[i], static_cast<std::uint8_t>(i < 8 ? 3 : 0)});
     using Kept = std::vector<std::uint8_t>;
     EXPECT_EQ(keepOnBorder(line, 1), (Kept{1, 0, 0, 0, 0, 0, 0, 0, 1}));
     EXPECT_EQ(keepOnBorder(line, 2), (Kept{1, 0, 0, 1, 0, 0, 0, 0, 1}));
@@ -98,7 +100,8 @@ TEST(SimplifyHeightField, AFlatSheetNeedsTwoTriangles) {
 std::optional<double> surfaceAt(const HeightWindow& map, const TerrainGrid& grid, double a, double d) {
     const auto cellOf = [](const std::vector<std::int32_t>& places, double at) {
         const auto above = std::upper_bound(places.begin(), places.end(), at);
-        return std::clamp<std::int64_t>(above - places.begin() - 1, 0, static_cast<std::int64_t>(places.size()) - 2);
+        return std::clamp<std::int64_t>(above - places.begin() - 1, 0,
+                                        static_cast<std::int64_t>(places.size()) - 2);
     };
     const std::int64_t c = cellOf(grid.across, a), r = cellOf(grid.down, d);
     if (!map.at(c, r).cell()) return std::nullopt;
@@ -112,10 +115,12 @@ std::optional<double> surfaceAt(const HeightWindow& map, const TerrainGrid& grid
 std::optional<double> drawnAt(const TileMesh& tile, double a, double d) {
     for (const glm::uvec3& t : tile.triangles) {
         const TileVertex &p = tile.vertices[t.x], &q = tile.vertices[t.y], &r = tile.vertices[t.z];
-        const glm::dvec2 at(a - p.across, d - p.down), qp(q.across - p.across, q.down - p.down), rp(r.across - p.across, r.down - p.down);
+        const glm::dvec2 at(a - p.across, d - p.down), qp(q.across - p.across, q.down - p.down),
+            rp(r.across - p.across, r.down - p.down);
         const double area = qp.x * rp.y - qp.y * rp.x;
         const double s = (at.x * rp.y - at.y * rp.x) / area, w = (qp.x * at.y - qp.y * at.x) / area;
-        if (s >= -1e-9 && w >= -1e-9 && s + w <= 1.0 + 1e-9) return p.height + s * (q.height - p.height) + w * (r.height - p.height);
+        if (s >= -1e-9 && w >= -1e-9 && s + w <= 1.0 + 1e-9)
+            return p.height + s * (q.height - p.height) + w * (r.height - p.height);
     }
     return std::nullopt;
 }
@@ -130,7 +135,8 @@ void checkErrors(const TerrainWorld& world, Random& random) {
         const double error = terrainError(*world.heights, world.grid, tile).value();
         std::vector<TriangleCorners> corners;
         for (const glm::uvec3& t : tile.triangles) {
-            corners.push_back({glm::vec3(tile.vertices[t.x].place()), glm::vec3(tile.vertices[t.y].place()), glm::vec3(tile.vertices[t.z].place())});
+            corners.push_back({glm::vec3(tile.vertices[t.x].place()), glm::vec3(tile.vertices[t.y].place()),
+                               glm::vec3(tile.vertices[t.z].place())});
         }
         const TriangleTree nearest(std::move(corners));
         double worst = 0.0;
@@ -140,12 +146,14 @@ void checkErrors(const TerrainWorld& world, Random& random) {
             const double d0 = world.grid.down[tile.firstRow], d1 = world.grid.down[tile.lastRow];
             double a = random.uniform(a0, a1);
             const double d = random.uniform(d0, d1);
-            if (k % 2 == 0) a = world.grid.across[tile.firstColumn + random.index(tile.lastColumn - tile.firstColumn)];
+            if (k % 2 == 0)
+                a = world.grid.across[tile.firstColumn + random.index(tile.lastColumn - tile.firstColumn)];
             const std::optional<double> ground = surfaceAt(map, world.grid, a, d);
             if (!ground) continue;
             const std::optional<double> drawn = drawnAt(tile, a, d);
             const double distance = drawn ? std::abs(*ground - *drawn)
-                                          : std::sqrt(static_cast<double>(nearest.closest(glm::vec3(a, *ground, d)).squaredDistance));
+                                          : std::sqrt(static_cast<double>(
+                                                nearest.closest(glm::vec3(a, *ground, d)).squaredDistance));
             worst = std::max(worst, distance);
         }
         RC_ASSERT(worst <= error * (1.0 + 1e-5) + 1.0);
@@ -154,13 +162,16 @@ void checkErrors(const TerrainWorld& world, Random& random) {
 
 RC_GTEST_PROP(TerrainError, BoundsTheDistanceAtEveryPlace, ()) {
     Random random(*rc::gen::arbitrary<std::uint32_t>());
-    const auto columns = static_cast<std::uint32_t>(2 + random.index(50)), rows = static_cast<std::uint32_t>(12 + random.index(60));
-    checkErrors(TerrainWorld(test::randomTerrain(columns, rows, random.bits(), random.uniform(), random.index(3) == 0)), random);
+    const auto columns = static_cast<std::uint32_t>(2 + random.index(50)),
+               rows = static_cast<std::uint32_t>(12 + random.index(60));
+    checkErrors(TerrainWorld(test::randomTerrain(columns, rows, random.bits(), random.uniform(),
+                                                 random.index(3) == 0)),
+                random);
 }
 
 TEST(TerrainError, IsExactForASpikeBetweenTheKeptSamples) {
-    // 8 x 8 cells, flat but for one height of 3 m; leaves of 4 x 4. The root may keep the spike or not: the error is 0
-    // or its height, nothing between.
+    // 8 x 8 cells, flat but for one height of 3 m; leaves of 4 x 4. The root may keep the spike or not: the
+    // error is 0 or its height, nothing between.
     std::vector<float> heights(81, 1.0f);
     heights[4 * 9 + 3] = 4.0f;
     const TerrainWorld world(HandMadeTerrain(9, 9, heights));
@@ -187,8 +198,10 @@ TEST(HangSkirts, ReachBelowEveryNeighbourOfAnotherLevel) {
                 for (std::size_t k = t; k < t + 2; ++k) {
                     for (int i = 0; i < 3; ++i) {
                         const TileVertex& v = tile.vertices[tile.triangles[k][i]];
-                        const auto [at, isNew] = ends.emplace(std::pair(v.across, v.down), std::pair(v.height, v.height));
-                        at->second = {std::min(at->second.first, v.height), std::max(at->second.second, v.height)};
+                        const auto [at, isNew] =
+                            ends.emplace(std::pair(v.across, v.down), std::pair(v.height, v.height));
+                        at->second = {std::min(at->second.first, v.height),
+                                      std::max(at->second.second, v.height)};
                     }
                 }
                 ASSERT_EQ(ends.size(), 2u);
@@ -200,13 +213,18 @@ TEST(HangSkirts, ReachBelowEveryNeighbourOfAnotherLevel) {
                     const std::uint32_t cells = 1u << world.layout.sideExponent(level);
                     const auto& places = vertical ? world.grid.across : world.grid.down;
                     const auto at = static_cast<std::uint32_t>(
-                        std::lower_bound(places.begin(), places.end(), vertical ? a.first.first : a.first.second) - places.begin());
+                        std::lower_bound(places.begin(), places.end(),
+                                         vertical ? a.first.first : a.first.second) -
+                        places.begin());
                     if (at % cells != 0 || at == 0) continue;
                     const std::uint32_t tiles = (vertical ? world.grid.rows : world.grid.columns) / cells + 1;
                     for (std::uint32_t along = 0; along < tiles; ++along) {
-                        const auto line = borderOf(*world.heights, world.grid, world.layout, {level, vertical, at / cells, along}).value();
+                        const auto line = borderOf(*world.heights, world.grid, world.layout,
+                                                   {level, vertical, at / cells, along})
+                                              .value();
                         for (const BorderPoint& p : line) {
-                            const int from = vertical ? a.first.second : a.first.first, to = vertical ? b.first.second : b.first.first;
+                            const int from = vertical ? a.first.second : a.first.first,
+                                      to = vertical ? b.first.second : b.first.first;
                             if (p.place < from || p.place > to || p.sides != 3) continue;
                             const double part = static_cast<double>(p.place - from) / (to - from);
                             const double bottom = a.second.first + (b.second.first - a.second.first) * part;

@@ -1,5 +1,5 @@
-// The city on hills: what stands, stands on the ground; the country never comes through the streets; without hills
-// nothing changes.
+// The city on hills: what stands, stands on the ground; the country never comes through the streets; without
+// hills nothing changes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,7 +66,8 @@ TEST(CityTerrain, BuildingsStandOnTheHighestGroundOfTheirLotAndReachBelowTheLowe
             // The building's lowest vertices: its foundation, below all ground around it, but no cellar.
             double bottom = 1e300;
             for (const glm::dvec3& p : mesh.positions) {
-                const bool inside = p.x > f.x0 + 0.01 && p.x < f.x1 - 0.01 && p.z > f.z0 + 0.01 && p.z < f.z1 - 0.01;
+                const bool inside =
+                    p.x > f.x0 + 0.01 && p.x < f.x1 - 0.01 && p.z > f.z0 + 0.01 && p.z < f.z1 - 0.01;
                 if (inside) bottom = std::min(bottom, p.y);
             }
             EXPECT_LT(bottom, lowest - 0.3);
@@ -107,11 +108,14 @@ TEST(CityTerrain, TheCountryIsThreeCitiesWideAndLowerThanTheCityInsideIt) {
     std::size_t inside = 0, holes = 0;
     for (std::uint32_t r = 0; r + 1 < info.rows; ++r) {
         for (std::uint32_t c = 0; c + 1 < info.columns; ++c) {
-            const double x = info.firstSample.x + c * info.cellMetres.x, z = info.firstSample.z + r * info.cellMetres.y;
+            const double x = info.firstSample.x + c * info.cellMetres.x,
+                         z = info.firstSample.z + r * info.cellMetres.y;
             const double cell = info.cellMetres.x;
-            const bool crosses = x + cell > plan.ground.x0 && x < plan.ground.x1 && z + cell > plan.ground.z0 && z < plan.ground.z1;
+            const bool crosses = x + cell > plan.ground.x0 && x < plan.ground.x1 &&
+                                 z + cell > plan.ground.z0 && z < plan.ground.z1;
             if (!crosses) continue;
-            for (const std::size_t at : {std::size_t{r} * info.columns + c, std::size_t{r + 1} * info.columns + c + 1}) {
+            for (const std::size_t at :
+                 {std::size_t{r} * info.columns + c, std::size_t{r + 1} * info.columns + c + 1}) {
                 const float height = country.heights[at];
                 if (height != height) {
                     ++holes;
@@ -132,11 +136,13 @@ TEST(CityTerrain, ThePictureIsPaintedForEveryTexel) {
     const auto city = cityOf(hillyCity());
     const TerrainInfo& info = city->terrain()->info();
     std::uint64_t bytes = 0, dark = 0;
-    ASSERT_TRUE(city->terrain()->readDrape([&](std::uint32_t, std::span<const std::uint8_t> rows) -> Result<void> {
-        bytes += rows.size();
-        for (std::size_t i = 0; i < rows.size(); i += 3) dark += rows[i] + rows[i + 1] + rows[i + 2] < 60 ? 1 : 0;
-        return {};
-    }));
+    ASSERT_TRUE(
+        city->terrain()->readDrape([&](std::uint32_t, std::span<const std::uint8_t> rows) -> Result<void> {
+            bytes += rows.size();
+            for (std::size_t i = 0; i < rows.size(); i += 3)
+                dark += rows[i] + rows[i + 1] + rows[i + 2] < 60 ? 1 : 0;
+            return {};
+        }));
     EXPECT_EQ(bytes, std::uint64_t(info.drapeWidth) * std::uint64_t(info.drapeHeight) * 3);
     EXPECT_EQ(dark, 0u);
 }

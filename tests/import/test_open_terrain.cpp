@@ -13,8 +13,8 @@ namespace fb::test {
 namespace {
 
 template <class T>
-std::filesystem::path writeHeights(const std::filesystem::path& file, int width, int height, OIIO::TypeDesc type,
-                                   const std::vector<T>& values, int channels = 1) {
+std::filesystem::path writeHeights(const std::filesystem::path& file, int width, int height,
+                                   OIIO::TypeDesc type, const std::vector<T>& values, int channels = 1) {
     std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(file.string());
     EXPECT_TRUE(output);
     OIIO::ImageSpec spec(width, height, channels, type);
@@ -50,8 +50,10 @@ class GeoTiff {
         for (const float v : pixels) put(data, v);
         entries_.push_back({273, 4, 1, {}});
         entries_.push_back({279, 4, 1, {}});
-        std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.tag < b.tag; });
-        std::vector<std::uint8_t> file{static_cast<std::uint8_t>(big_ ? 'M' : 'I'), static_cast<std::uint8_t>(big_ ? 'M' : 'I')};
+        std::sort(entries_.begin(), entries_.end(),
+                  [](const Entry& a, const Entry& b) { return a.tag < b.tag; });
+        std::vector<std::uint8_t> file{static_cast<std::uint8_t>(big_ ? 'M' : 'I'),
+                                       static_cast<std::uint8_t>(big_ ? 'M' : 'I')};
         put(file, std::uint16_t{42});
         put(file, static_cast<std::uint32_t>(8 + data.size()));
         file.insert(file.end(), data.begin(), data.end());
@@ -72,7 +74,8 @@ class GeoTiff {
         }
         put(file, std::uint32_t{0});
         file.insert(file.end(), behind.begin(), behind.end());
-        std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
+        std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(file.data()), static_cast<std::streamsize>(file.size()));
         return path;
     }
 
@@ -111,17 +114,19 @@ struct Opened {
 
     [[nodiscard]] const TerrainInfo& info() const { return source->terrain()->info(); }
     [[nodiscard]] bool notes(const std::string& part) const {
-        return std::ranges::any_of(source->info().report.warnings, [&](const std::string& w) { return w.find(part) != std::string::npos; });
+        return std::ranges::any_of(source->info().report.warnings,
+                                   [&](const std::string& w) { return w.find(part) != std::string::npos; });
     }
 };
 Opened openWith(const TerrainOptions& options, std::unique_ptr<BlockSource> meshes = nullptr) {
     Result<std::unique_ptr<BlockSource>> made = addTerrain(std::move(meshes), options);
     if (!made) return {nullptr, made.error().oneLine()};
     Opened opened{std::move(*made), {}};
-    const Result<void> read = opened.source->terrain()->readHeights([&](std::uint32_t, std::span<const float> rows) -> Result<void> {
-        opened.heights.insert(opened.heights.end(), rows.begin(), rows.end());
-        return {};
-    });
+    const Result<void> read = opened.source->terrain()->readHeights(
+        [&](std::uint32_t, std::span<const float> rows) -> Result<void> {
+            opened.heights.insert(opened.heights.end(), rows.begin(), rows.end());
+            return {};
+        });
     EXPECT_TRUE(read);
     return opened;
 }
@@ -152,7 +157,8 @@ TEST(OpenTerrain, ReadsSixteenBitPngFloatExrAndTiffAlike) {
 
 TEST(OpenTerrain, ScalesHeightsAndTakesUnknownOnesOut) {
     const TempFolder folder;
-    TerrainOptions options = of(writeHeights(folder.path() / "a.png", 3, 2, OIIO::TypeDesc::UINT16, std::vector<std::uint16_t>{10, 20, 9, 40, 50, 9}));
+    TerrainOptions options = of(writeHeights(folder.path() / "a.png", 3, 2, OIIO::TypeDesc::UINT16,
+                                             std::vector<std::uint16_t>{10, 20, 9, 40, 50, 9}));
     options.heightScale = 0.1;
     options.noData = 9.0;
     options.cellMetres = 4.0;
@@ -164,8 +170,11 @@ TEST(OpenTerrain, ScalesHeightsAndTakesUnknownOnesOut) {
     EXPECT_TRUE(opened.notes("2 heights are not known"));
     EXPECT_FALSE(opened.notes("1 m wide"));
 
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
-    const Opened odd = openWith(of(writeHeights(folder.path() / "b.exr", 4, 2, OIIO::TypeDesc::FLOAT, std::vector<float>{1, 2, kNan, -3.4e38f, 3, 4, kInf, -kInf})));
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                    kInf = std::numeric_limits<float>::infinity();
+    const Opened odd =
+        openWith(of(writeHeights(folder.path() / "b.exr", 4, 2, OIIO::TypeDesc::FLOAT,
+                                 std::vector<float>{1, 2, kNan, -3.4e38f, 3, 4, kInf, -kInf})));
     ASSERT_TRUE(odd.source) << odd.error;
     EXPECT_TRUE(odd.notes("4 heights are not known"));
     EXPECT_EQ(odd.info().highestMetres, 4.0f);
@@ -180,11 +189,13 @@ TEST(OpenTerrain, GoesWhereAGeoTiffSays) {
         EXPECT_EQ(opened.heights, kSix);
         EXPECT_EQ(opened.info().cellMetres, glm::dvec2(0.5, 0.25));
         // The first sample is the middle of the first pixel: east 482600.25, north 1557540.875.
-        EXPECT_EQ(opened.source->info().origin + opened.info().firstSample, glm::dvec3(482600.25, 0.0, -1557540.875));
+        EXPECT_EQ(opened.source->info().origin + opened.info().firstSample,
+                  glm::dvec3(482600.25, 0.0, -1557540.875));
         TerrainOptions zUp = of(file);
         zUp.up = UpAxis::z;
         const Opened turned = openWith(zUp);
-        EXPECT_EQ(turned.source->info().origin + turned.info().firstSample, glm::dvec3(482600.25, 1557540.875, 0.0));
+        EXPECT_EQ(turned.source->info().origin + turned.info().firstSample,
+                  glm::dvec3(482600.25, 1557540.875, 0.0));
     }
     TerrainOptions wider = of(folder.path() / "utm.tif");
     wider.cellMetres = 2.0;
@@ -207,11 +218,13 @@ TEST(GeoTags, BelieveNoPrefixAndNoByteOfADamagedFile) {
     std::ifstream stream(file, std::ios::binary);
     const std::vector<char> good{std::istreambuf_iterator<char>(stream), {}};
     const auto tagsOf = [&](const std::vector<char>& bytes) {
-        std::ofstream(folder.path() / "d.tif", std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        std::ofstream(folder.path() / "d.tif", std::ios::binary)
+            .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         return readGeoTags(folder.path() / "d.tif");
     };
     for (std::size_t length = 0; length < good.size(); ++length) {
-        const Result<GeoTags> tags = tagsOf({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length)});
+        const Result<GeoTags> tags =
+            tagsOf({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length)});
         ASSERT_TRUE(tags);
         EXPECT_FALSE(tags->noData && tags->pixelMetres && tags->cornerEastNorth) << length;
     }
@@ -229,7 +242,9 @@ TEST(OpenTerrain, RefusesWhatIsNoTerrainInOneLine) {
     const auto lineOf = [&](const std::string& name, int w, int h, std::vector<float> values) {
         return openWith(of(writeHeights(folder.path() / name, w, h, OIIO::TypeDesc::FLOAT, values))).error;
     };
-    const auto has = [](const std::string& line, const std::string& part) { return line.find(part) != std::string::npos; };
+    const auto has = [](const std::string& line, const std::string& part) {
+        return line.find(part) != std::string::npos;
+    };
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(has(lineOf("one.exr", 1, 1, {5}), "one.exr: has 1 x 1 heights, which span no cell"));
     EXPECT_TRUE(has(lineOf("row.exr", 4, 1, {5, 5, 5, 5}), "which span no cell"));
@@ -238,7 +253,8 @@ TEST(OpenTerrain, RefusesWhatIsNoTerrainInOneLine) {
     std::ofstream(folder.path() / "text.tif") << "this is no picture at all";
     EXPECT_TRUE(has(openWith(of(folder.path() / "text.tif")).error, "text.tif: byte 0: is not an image"));
     EXPECT_TRUE(has(openWith(of(folder.path() / "nowhere.tif")).error, "nowhere.tif"));
-    std::filesystem::resize_file(folder.path() / "none.exr", std::filesystem::file_size(folder.path() / "none.exr") / 2);
+    std::filesystem::resize_file(folder.path() / "none.exr",
+                                 std::filesystem::file_size(folder.path() / "none.exr") / 2);
     EXPECT_TRUE(has(openWith(of(folder.path() / "none.exr")).error, "none.exr: cannot be decoded"));
     TerrainOptions options = of(folder.path() / "scattered.exr");
     options.cellMetres = -1.0;
@@ -259,10 +275,11 @@ TEST(OpenTerrain, StretchesADrapeOverTheWholeMap) {
     EXPECT_EQ(opened.info().texelsPerCell, glm::dvec2(4.0, 2.0));
     EXPECT_EQ(opened.info().drapeFirst, glm::dvec2(2.0, 1.0));  // the middle of the first pixel of the map
     std::vector<std::uint8_t> read;
-    ASSERT_TRUE(opened.source->terrain()->readDrape([&](std::uint32_t, std::span<const std::uint8_t> rows) -> Result<void> {
-        read.insert(read.end(), rows.begin(), rows.end());
-        return {};
-    }));
+    ASSERT_TRUE(opened.source->terrain()->readDrape(
+        [&](std::uint32_t, std::span<const std::uint8_t> rows) -> Result<void> {
+            read.insert(read.end(), rows.begin(), rows.end());
+            return {};
+        }));
     EXPECT_EQ(read, colours);
 }
 
@@ -285,12 +302,14 @@ class OneTriangle final : public BlockSource {
 TEST(OpenTerrain, LiesUnderTheMeshesByCoordinatesOrByTheirMiddle) {
     const TempFolder folder;
     const std::filesystem::path file = utmTiff().write(folder.path() / "utm.tif", kSix);
-    const Opened near = openWith(of(file), std::make_unique<OneTriangle>(glm::dvec3(482600, 40, -1557541), glm::dvec3(1.0)));
+    const Opened near =
+        openWith(of(file), std::make_unique<OneTriangle>(glm::dvec3(482600, 40, -1557541), glm::dvec3(1.0)));
     ASSERT_TRUE(near.source) << near.error;
     EXPECT_EQ(near.source->info().origin, glm::dvec3(482600, 40, -1557541));
     EXPECT_EQ(near.info().firstSample, glm::dvec3(0.25, -40.0, 0.125));
     EXPECT_EQ(near.source->blockCount(), 1u);
-    const Opened far = openWith(of(file), std::make_unique<OneTriangle>(glm::dvec3(0), glm::dvec3(4.0, 1.0, 4.0)));
+    const Opened far =
+        openWith(of(file), std::make_unique<OneTriangle>(glm::dvec3(0), glm::dvec3(4.0, 1.0, 4.0)));
     EXPECT_TRUE(far.notes("its coordinates are not under the meshes"));
     EXPECT_EQ(far.info().firstSample, glm::dvec3(1.5, 0.0, 1.875));  // 1 m x 0.25 m around (2, 2)
 }
@@ -299,11 +318,14 @@ TEST(WalkOnTerrain, FollowsTheGroundAndKeepsOffHoles) {
     const TempFolder folder;
     std::vector<float> slope(41 * 41);
     for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = static_cast<float>(i % 41) * 0.5f;
-    const Opened opened = openWith(of(writeHeights(folder.path() / "s.exr", 41, 41, OIIO::TypeDesc::FLOAT, slope)));
+    const Opened opened =
+        openWith(of(writeHeights(folder.path() / "s.exr", 41, 41, OIIO::TypeDesc::FLOAT, slope)));
     ASSERT_EQ(opened.source->info().walks.size(), 1u);
-    for (const glm::dvec3& p : opened.source->info().walks[0].points) EXPECT_NEAR(p.y, (p.x + 20.0) * 0.5, 1e-5);
+    for (const glm::dvec3& p : opened.source->info().walks[0].points)
+        EXPECT_NEAR(p.y, (p.x + 20.0) * 0.5, 1e-5);
     slope[20 * 41 + 12] = std::numeric_limits<float>::quiet_NaN();
-    const Opened holed = openWith(of(writeHeights(folder.path() / "t.exr", 41, 41, OIIO::TypeDesc::FLOAT, slope)));
+    const Opened holed =
+        openWith(of(writeHeights(folder.path() / "t.exr", 41, 41, OIIO::TypeDesc::FLOAT, slope)));
     EXPECT_TRUE(holed.source->info().walks.empty());
 }
 

@@ -1,4 +1,5 @@
-// `build --terrain` and `city --terrain` as a user runs them: what info and check say, and answers to wrong options.
+// `build --terrain` and `city --terrain` as a user runs them: what info and check say, and answers to wrong
+// options.
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +32,8 @@ void expectUsage(const ProgramRun& run, const std::string& part) {
 TEST(TerrainProgram, BuildsChecksDescribesAndWalksAHeightMapAlone) {
     const TemporaryFolder folder;
     const std::string map = writeHills(folder / "hills.exr", 70), scene = (folder / "hills.fbscene").string();
-    const ProgramRun built = runProgram("build --progress none --terrain " + map + " --cell-size 2 -o " + scene);
+    const ProgramRun built =
+        runProgram("build --progress none --terrain " + map + " --cell-size 2 -o " + scene);
     ASSERT_EQ(built.exitCode, 0) << built.err;
     EXPECT_NE(built.err.find("9522 triangles in 1 block"), std::string::npos) << built.err;
     EXPECT_EQ(runProgram("check --progress none " + scene).exitCode, 0);
@@ -42,7 +44,10 @@ TEST(TerrainProgram, BuildsChecksDescribesAndWalksAHeightMapAlone) {
     EXPECT_EQ(info["terrain_levels"][0]["nodes"], 1);
     EXPECT_NE(runProgram("info " + scene).out.find("\nterrain\nlevel"), std::string::npos);
     for (const char* path : {"walk", "fly"}) {
-        EXPECT_EQ(runProgram("replay " + scene + " --clock model --frames 3 --path " + path + " --out " + (folder / path).string()).exitCode, 0);
+        EXPECT_EQ(runProgram("replay " + scene + " --clock model --frames 3 --path " + path + " --out " +
+                             (folder / path).string())
+                      .exitCode,
+                  0);
     }
 }
 
@@ -50,7 +55,8 @@ TEST(TerrainProgram, PutsAHeightMapUnderMeshes) {
     const TemporaryFolder folder;
     std::ofstream(folder / "t.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::string map = writeHills(folder / "hills.exr", 20), scene = (folder / "both.fbscene").string();
-    const ProgramRun built = runProgram("build --progress none " + (folder / "t.obj").string() + " --terrain " + map + " -o " + scene);
+    const ProgramRun built = runProgram("build --progress none " + (folder / "t.obj").string() +
+                                        " --terrain " + map + " -o " + scene);
     ASSERT_EQ(built.exitCode, 0) << built.err;
     const auto info = nlohmann::json::parse(runProgram("info --json " + scene).out);
     EXPECT_EQ(info["levels"].size(), 1u);
@@ -76,13 +82,18 @@ TEST(TerrainProgram, OptionsOfTerrainsNeedOneAndMustBeNumbers) {
 TEST(TerrainProgram, TheCityOnHillsHasBothHierarchies) {
     const TemporaryFolder folder;
     const std::string scene = (folder / "city.fbscene").string();
-    ASSERT_EQ(runProgram("city --terrain --progress none --blocks 2 --triangles 6K --texels 40K -o " + scene).exitCode, 0);
+    ASSERT_EQ(runProgram("city --terrain --progress none --blocks 2 --triangles 6K --texels 40K -o " + scene)
+                  .exitCode,
+              0);
     const auto info = nlohmann::json::parse(runProgram("info --json " + scene).out);
     EXPECT_EQ(info["blocks"], 3);
     EXPECT_EQ(info["levels"][0]["nodes"], 2);
     EXPECT_EQ(info["terrain_levels"][0]["nodes"], 1);
     EXPECT_EQ(runProgram("check --progress none " + scene).exitCode, 0);
-    EXPECT_EQ(runProgram("replay " + scene + " --clock model --frames 3 --path walk --out " + (folder / "o").string()).exitCode, 0);
+    EXPECT_EQ(runProgram("replay " + scene + " --clock model --frames 3 --path walk --out " +
+                         (folder / "o").string())
+                  .exitCode,
+              0);
 }
 
 }  // namespace
