@@ -12,6 +12,7 @@
 #include "build/hash_block.h"
 #include "import/city.h"
 #include "import/import_files.h"
+#include "import/open_terrain.h"
 
 namespace fb {
 namespace {
@@ -47,6 +48,38 @@ Result<ImportOptions> importOptions(const BuildCommand& command) {
         return usageFailure("--split " + command.split, "is not a way to split", "auto, none, grid or groups");
     if (command.blockTriangles == 0) return usageFailure("--block-triangles 0", "must be at least 1");
     return options;
+}
+
+Result<TerrainOptions> terrainOptions(const BuildCommand& command, const ImportOptions& import) {
+    TerrainOptions options;
+    options.heights = command.terrain;
+    options.up = import.up;
+    options.name = command.name;
+    if (!command.drape.empty()) options.drape = command.drape;
+    const auto take = [](const char* option, const std::string& text, auto& into) -> Result<void> {
+        if (text.empty()) return {};
+        Result<double> value = parseReal(option, text);
+        if (!value) return passOn(value);
+        into = *value;
+        return {};
+    };
+    if (Result<void> taken = take("--cell-size", command.cellSize, options.cellMetres); !taken) return passOn(taken);
+    if (Result<void> taken = take("--height-scale", command.heightScale, options.heightScale); !taken) return passOn(taken);
+    if (Result<void> taken = take("--no-data", command.noData, options.noData); !taken) return passOn(taken);
+    return options;
+}
+
+// What options of terrains ask of each other.
+Result<void> checkInputs(const BuildCommand& command) {
+    if (!command.terrain.empty()) return {};
+    if (command.inputs.empty()) return usageFailure("INPUT", "no mesh file is given, and no --terrain");
+    for (const auto& [option, given] : {std::pair{"--drape", !command.drape.empty()},
+                                        {"--cell-size", !command.cellSize.empty()},
+                                        {"--height-scale", !command.heightScale.empty()},
+                                        {"--no-data", !command.noData.empty()}}) {
+        if (given) return usageFailure(option, "needs --terrain");
+    }
+    return {};
 }
 
 std::string counted(std::uint64_t count, const std::string& what) {
@@ -107,6 +140,7 @@ Result<CityOptions> cityOptions(const CityCommand& command) {
         if (!count) return usageFailure(option + (" " + text), count.error().reason, count.error().hint);
         *value = *count;
     }
+    options.terrain = command.terrain;
     return options;
 }
 
@@ -118,10 +152,16 @@ Result<void> runBuild(const BuildCommand& command) {
     Result<ImportOptions> options = importOptions(command);
     if (!options) return passOn(options);
     if (Result<void> named = checkOutput(command.output); !named) return named;
-    std::string what = command.inputs.front().string();
-    if (command.inputs.size() > 1) what += " and " + std::to_string(command.inputs.size() - 1) + " more";
+    if (Result<void> sound = checkInputs(command); !sound) return sound;
+    Result<TerrainOptions> terrain = terrainOptions(command, *options);
+    if (!terrain) return passOn(terrain);
+    const std::size_t files = command.inputs.size() + (command.terrain.empty() ? 0 : 1);
+    std::string what = (command.inputs.empty() ? command.terrain : command.inputs.front()).string();
+    if (files > 1) what += " and " + std::to_string(files - 1) + " more";
     return runGuarded(what, [&]() -> Result<void> {
-        auto source = importFiles(command.inputs, *options, showProgress(command.progress));
+        Result<std::unique_ptr<BlockSource>> source;
+        if (!command.inputs.empty()) source = importFiles(command.inputs, *options, showProgress(command.progress));
+        if (source && !command.terrain.empty()) source = addTerrain(std::move(*source), *terrain);
         if (!source) return passOn(source);
         return buildFrom(**source, *settings, command.output, command.progress, command.phases);
     });

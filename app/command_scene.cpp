@@ -18,9 +18,12 @@ struct LevelRow {
     std::uint64_t triangles() const { return textured + untextured; }
 };
 
-std::vector<LevelRow> gatherLevels(const Hierarchy& h) {
-    std::vector<LevelRow> rows(h.maxLevel() + 1u);
+// Of the blocks of one kind; empty when there are none.
+std::vector<LevelRow> gatherLevels(const Hierarchy& h, BlockKind kind) {
+    std::vector<LevelRow> rows;
     for (NodeId n = 0; n < h.size(); ++n) {
+        if (h.kinds[h.block[n]] != kind) continue;
+        if (h.level[n] >= rows.size()) rows.resize(h.level[n] + 1u);
         LevelRow& row = rows[h.level[n]];
         ++row.nodes;
         row.leaves += h.isLeaf(n) ? 1 : 0;
@@ -47,7 +50,17 @@ nlohmann::ordered_json levelJson(std::size_t level, const LevelRow& row) {
             {"error_m", {{"mean", row.errorSum / static_cast<double>(row.nodes)}, {"max", row.errorMax}}}};
 }
 
-void printJson(const Scene& scene, const std::vector<LevelRow>& levels) {
+struct SceneLevels {
+    std::vector<LevelRow> objects, terrain;
+};
+
+nlohmann::ordered_json levelsJson(const std::vector<LevelRow>& levels) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < levels.size(); ++i) json.push_back(levelJson(i, levels[i]));
+    return json;
+}
+
+void printJson(const Scene& scene, const SceneLevels& levels) {
     const SceneInfo& info = scene.info;
     nlohmann::ordered_json json = {{"name", info.name},
                                    {"program", info.program},
@@ -63,19 +76,12 @@ void printJson(const Scene& scene, const std::vector<LevelRow>& levels) {
                                    {"source_area_m2", info.sourceAreaSquareMetres},
                                    {"source_files", info.sourceFiles},
                                    {"report", info.reportLines}};
-    for (std::size_t i = 0; i < levels.size(); ++i) json["levels"].push_back(levelJson(i, levels[i]));
+    json["levels"] = levelsJson(levels.objects);
+    if (!levels.terrain.empty()) json["terrain_levels"] = levelsJson(levels.terrain);
     std::printf("%s\n", json.dump(2).c_str());
 }
 
-void printTable(const Scene& scene, const std::vector<LevelRow>& levels) {
-    const SceneInfo& info = scene.info;
-    const glm::dvec3 size = info.bounds.size();
-    std::printf("%s  (%s, scene %s)\n", info.name.c_str(), info.program.c_str(), hashText(scene.sceneHash).c_str());
-    std::printf("%.6g x %.6g x %.6g m, %s up, origin %.17g %.17g %.17g\n", size.x, size.y, size.z,
-                info.up == UpAxis::y ? "y" : "z", info.origin.x, info.origin.y, info.origin.z);
-    std::printf("%u blocks, %u nodes, %llu source triangles, %.6g m2\n\n", scene.hierarchy.rootCount,
-                scene.hierarchy.size(), static_cast<unsigned long long>(info.sourceTriangles),
-                info.sourceAreaSquareMetres);
+void printLevels(const std::vector<LevelRow>& levels) {
     std::printf("%5s %7s %7s %10s %10s %12s %10s %10s %12s %12s\n", "level", "nodes", "leaves", "textured", "untextured",
                 "texels", "disk MB", "memory MB", "mean error m", "max error m");
     for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -87,6 +93,22 @@ void printTable(const Scene& scene, const std::vector<LevelRow>& levels) {
                     static_cast<double>(row.residentBytes) / 1e6, row.errorSum / static_cast<double>(row.nodes),
                     row.errorMax);
     }
+}
+
+void printTable(const Scene& scene, const SceneLevels& levels) {
+    const SceneInfo& info = scene.info;
+    const glm::dvec3 size = info.bounds.size();
+    std::printf("%s  (%s, scene %s)\n", info.name.c_str(), info.program.c_str(), hashText(scene.sceneHash).c_str());
+    std::printf("%.6g x %.6g x %.6g m, %s up, origin %.17g %.17g %.17g\n", size.x, size.y, size.z,
+                info.up == UpAxis::y ? "y" : "z", info.origin.x, info.origin.y, info.origin.z);
+    std::printf("%u blocks, %u nodes, %llu source triangles, %.6g m2\n\n", scene.hierarchy.rootCount,
+                scene.hierarchy.size(), static_cast<unsigned long long>(info.sourceTriangles),
+                info.sourceAreaSquareMetres);
+    if (!levels.objects.empty()) printLevels(levels.objects);
+    if (!levels.terrain.empty()) {
+        std::printf("%sterrain\n", levels.objects.empty() ? "" : "\n");
+        printLevels(levels.terrain);
+    }
     for (const std::string& line : info.reportLines) std::printf("note: %s\n", line.c_str());
 }
 
@@ -95,7 +117,8 @@ void printTable(const Scene& scene, const std::vector<LevelRow>& levels) {
 Result<void> runInfo(const std::filesystem::path& folder, bool json) {
     Result<Scene> scene = openScene(folder);
     if (!scene) return passOn(scene);
-    const std::vector<LevelRow> levels = gatherLevels(scene->hierarchy);
+    const SceneLevels levels{gatherLevels(scene->hierarchy, BlockKind::objects),
+                             gatherLevels(scene->hierarchy, BlockKind::terrain)};
     if (json) {
         printJson(*scene, levels);
     } else {

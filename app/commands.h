@@ -21,6 +21,8 @@ struct BuildCommand {
     std::uint64_t blockTriangles = 40000;
     std::string texture;
     std::string name;
+    std::filesystem::path terrain, drape;         // a height map, alone or below the meshes, and a picture on it
+    std::string cellSize, heightScale, noData;    // numbers; empty: as the file says
     std::vector<std::string> sets;  // --set build.k=v
     ProgressStyle progress = ProgressStyle::automatic;
     bool phases = false;
@@ -30,6 +32,7 @@ struct BuildCommand {
 struct CityCommand {
     std::filesystem::path output;
     std::string blocks, triangles, texels, seed;  // numbers with K, M or G; empty: the default
+    bool terrain = false;                         // on hills
     std::vector<std::string> sets;
     ProgressStyle progress = ProgressStyle::automatic;
     bool phases = false;

@@ -48,6 +48,15 @@ Result<glm::ivec2> parseSize(const std::string& text) {
     return size;
 }
 
+Result<double> parseReal(const std::string& option, const std::string& text) {
+    double value = 0.0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+        return usageFailure(option + " " + text, "is not a finite number", "as in 0.5");
+    }
+    return value;
+}
+
 Result<std::uint64_t> parseCount(const std::string& text) {
     double value = 0.0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);

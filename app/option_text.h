@@ -17,5 +17,7 @@ namespace fb {
 [[nodiscard]] Result<glm::ivec2> parseSize(const std::string& text);
 // "480000", "480K", "8.95M", "1G".
 [[nodiscard]] Result<std::uint64_t> parseCount(const std::string& text);
+// A finite number; `option` is named in the error.
+[[nodiscard]] Result<double> parseReal(const std::string& option, const std::string& text);
 
 }  // namespace fb

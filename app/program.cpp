@@ -40,14 +40,19 @@ void addProgress(CLI::App* command, ProgressStyle& style) {
 }
 
 void addBuild(CLI::App& program, CommandLine& line) {
-    CLI::App* command = program.add_subcommand("build", "Import meshes (OBJ, PLY, STL, OFF, glTF, GLB) and build a scene");
+    CLI::App* command = program.add_subcommand("build", "Build a scene from meshes (OBJ, PLY, STL, OFF, glTF, GLB), a height map, or both");
     BuildCommand& b = line.build;
-    command->add_option("INPUT", b.inputs, "Mesh files; several become several blocks")->required();
+    command->add_option("INPUT", b.inputs, "Mesh files; several become several blocks");
     command->add_option("-o,--output", b.output, "The scene's folder, NAME.fbscene")->required();
     command->add_option("--up", b.up, "Axis that points up: auto, y, z");
     command->add_option("--split", b.split, "How a mesh becomes blocks: auto, none, grid, groups");
     command->add_option("--block-triangles", b.blockTriangles, "Triangles that a block of the grid should have")->check(kNotNegative);
     command->add_option("--texture", b.texture, "Texture for a file that names none");
+    command->add_option("--terrain", b.terrain, "Height map (TIFF, PNG, OpenEXR), alone or below the meshes");
+    command->add_option("--drape", b.drape, "Picture over the whole height map");
+    command->add_option("--cell-size", b.cellSize, "Metres between heights, instead of what a GeoTIFF says");
+    command->add_option("--height-scale", b.heightScale, "Metres a unit of the height map");
+    command->add_option("--no-data", b.noData, "Value that means no height, instead of what a GeoTIFF says");
     command->add_option("--name", b.name, "The scene's name");
     command->add_option("--set", b.sets, "Set a knob: build.NAME=VALUE");
     addProgress(command, b.progress);
@@ -63,6 +68,7 @@ void addCity(CLI::App& program, CommandLine& line) {
     command->add_option("--triangles", c.triangles, "Triangles of the whole city, as in 480K or 8.95M");
     command->add_option("--texels", c.texels, "Texels of the whole city, as in 24M");
     command->add_option("--seed", c.seed, "Another seed makes another city");
+    command->add_flag("--terrain", c.terrain, "Put the city on hills, with the country around it");
     command->add_option("--set", c.sets, "Set a knob: build.NAME=VALUE");
     addProgress(command, c.progress);
     addPhases(command, c.phases);

@@ -9,6 +9,7 @@
 
 #include "base/clock.h"
 #include "base/folder_lock.h"
+#include "build/build_terrain.h"
 #include "build/hash_block.h"
 
 namespace fb {
@@ -203,6 +204,19 @@ Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& s
         if (block.error) return tl::make_unexpected(std::move(*block.error));
         merge(report, std::move(block.report));
         blocks.push_back(std::move(block.block));
+    }
+    if (const TerrainSource* terrain = task.source.terrain(); terrain != nullptr && !gate.stopped()) {
+        const auto goesOn = [&](double fraction) {
+            gate.tell("build terrain", fraction);
+            return !gate.stopped();
+        };
+        Result<BuiltTerrain> built = buildTerrain({*terrain, settings, folder, static_cast<std::uint32_t>(count),
+                                                   task.settingsHash, goesOn});
+        if (!built && !gate.stopped()) return passOn(built);
+        if (built) {
+            merge(report, std::move(built->report));
+            blocks.push_back(std::move(built->block));
+        }
     }
     if (!gate.stopped()) gate.tell("write scene", 0.0);
     if (gate.stopped()) {

@@ -1,6 +1,6 @@
 // Building: a BlockSource becomes a scene folder (thesis ch. 3, algorithms section 1).
 // Blocks are built in parallel (oneTBB), each one alone in memory, and written as they finish; a killed build
-// is taken up again by the packs that it had finished.
+// is taken up again by the packs that it had finished. A terrain comes last, as a block of its own (build_terrain.h).
 #pragma once
 
 #include <filesystem>

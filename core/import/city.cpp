@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::uint64_t kGeneratorVersion = 3;  // raise it when the same options give another city
 
+constexpr std::uint64_t kHillsVersion = 1;      // the same for cities on hills
+
 constexpr std::uint64_t kMostBlocks = 10000;
 constexpr std::uint64_t kLeastTriangles = 1000, kMostTriangles = 2000000;  // a block
 constexpr std::uint64_t kLeastTexels = 8192, kMostTexels = 16000000;       // a block
@@ -24,10 +26,17 @@ class CitySource final : public BlockSource {
         const city::Rect& ground = plan_.ground;
         info_.bounds.grow(glm::dvec3(ground.x0, -0.2, ground.z0));
         info_.bounds.grow(glm::dvec3(ground.x1, plan_.highestTop, ground.z1));
+        if (options.terrain) {
+            country_ = city::makeCountry(plan_);
+            info_.bounds.grow(glm::dvec3(ground.x0, country_->info().lowestMetres, ground.z0));
+        }
         Hasher hash;
         hash.text("city").number(kGeneratorVersion).number(options.blocks).number(options.triangles);
-        info_.sourceHash = hash.number(options.texels).number(options.seed).digest();
+        hash.number(options.texels).number(options.seed);
+        if (country_) hash.text("terrain").number(kHillsVersion).number(country_->info().sourceHash);
+        info_.sourceHash = hash.digest();
         info_.walks.push_back(city::planWalk(plan_));
+        for (glm::dvec3& p : info_.walks.back().points) p.y += plan_.hills.heightAt(p.x, p.z);
         for (const city::UnitBudget& budget : budgets_) info_.report.sourceTriangles += budget.triangles;
         info_.report.keptTriangles = info_.report.sourceTriangles;
     }
@@ -41,9 +50,12 @@ class CitySource final : public BlockSource {
         return city::makeBlock(plan_, plan_.units[block], budgets_[block], name.data());
     }
 
+    [[nodiscard]] const TerrainSource* terrain() const override { return country_.get(); }
+
   private:
     city::CityPlan plan_;
     std::vector<city::UnitBudget> budgets_;
+    std::unique_ptr<TerrainSource> country_;  // null without --terrain
     SourceInfo info_;
 };
 

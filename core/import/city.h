@@ -16,6 +16,7 @@ struct CityOptions {
     std::uint64_t triangles = 1600000;   // of the whole city; met within 5 %
     std::uint64_t texels = 80000000;     // of the whole city; met within 10 %
     std::uint64_t seed = 1;
+    bool terrain = false;  // on hills, with the country around it as a terrain
 };
 
 // Refused: 0 blocks, too few triangles or texels for the blocks, more than the caps.

@@ -17,6 +17,16 @@ std::uint32_t addPicture(SourceBlock& block, const std::string& name, Image&& im
     return static_cast<std::uint32_t>(block.materials.size() - 1);
 }
 
+// Cars and lamps stand where the ground under them is lowest, machinery on its roof.
+double standsAt(const CityPlan& plan, const Unit& unit, const Thing& thing) {
+    const Lump& lump = thing.front();
+    for (const Building& b : unit.buildings) {
+        if (lump.base.y > 1.0 && b.footprint.contains(lump.base.x, lump.base.z)) return b.baseY;
+    }
+    const double x = lump.size.x / 2.0, z = lump.size.z / 2.0;
+    return plan.hills.within(lump.base.x - x, lump.base.z - z, lump.base.x + x, lump.base.z + z).low;
+}
+
 }  // namespace
 
 SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& budget,
@@ -30,6 +40,11 @@ SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& 
 
     MeshBuilder mesh;
     mesh.reserve(budget.triangles);
+    std::size_t raised = 0;  // vertices that stand where they belong
+    const auto raiseBy = [&](double metres) {
+        if (plan.hills.exist) mesh.raise(raised, [metres](double, double) { return metres; });
+        raised = mesh.vertexCount();
+    };
     for (std::size_t i = 0; i < design.facades.size(); ++i) {
         const Facade& facade = design.facades[i];
         const Detail detail = detailOf(facade, budget);
@@ -43,16 +58,26 @@ SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& 
         const FacadeGrid grid =
             fillGrid(features, budget.spacing * spacingFactor(facade.role), facade.seed + 9);
         addFacade(facade, grid, detail, material, !budget.grey[i], mesh);
+        raiseBy(facade.baseY);
     }
     const PictureSize size = aerialPictureSize(unit, budget.texelsPerMetre);
     const std::uint32_t aerial = addPicture(block, "from above", paintAerial(plan, unit, things, size));
     addGround(plan, unit, design.ground, budget.spacing * kGroundSpacingFactor, aerial, mesh);
+    if (plan.hills.exist) {
+        mesh.raise(raised, [&](double x, double z) { return plan.hills.heightAt(x, z); });
+        raised = mesh.vertexCount();
+    }
     for (const Building& building : unit.buildings) {
         addRoof(unit, building, budget.spacing * kRoofSpacingFactor, aerial, mesh);
+        raiseBy(building.baseY);
     }
-    for (const Thing& thing : things) addThing(thing, budget.thingSpacing, kGrey, mesh);
+    for (const Thing& thing : things) {
+        addThing(thing, budget.thingSpacing, kGrey, mesh);
+        raiseBy(plan.hills.exist ? standsAt(plan, unit, thing) : 0.0);
+    }
+    FB_CHECK(mesh.triangleCount() == budget.triangles);
+    if (plan.hills.exist) addFoundations(plan, unit, kGrey, mesh);
     block.mesh = mesh.finish();
-    FB_CHECK(block.mesh.triangles.size() == budget.triangles);
     return block;
 }
 

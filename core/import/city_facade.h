@@ -61,6 +61,7 @@ struct Facade {
     std::vector<glm::dvec2> normals;  // outward, one a segment
     bool flaps = false;  // turns a little around both ends, so that no gap opens beside a neighbour
     double bottom = -0.2, top = 0.0;
+    double baseY = 0.0;  // of the building: heights are above it
     double wrapDown = 0.0;  // the sheet goes over the parapet and down to here
     std::vector<Opening> openings;
     std::vector<Relief> reliefs;

@@ -274,6 +274,7 @@ std::vector<Facade> designFacades(const Building& b) {
         if (facade.top - facade.bottom < 0.2) facade.bottom = facade.top - 0.2;
         facades.push_back(std::move(facade));
     }
+    for (Facade& facade : facades) facade.baseY = b.baseY;
     return facades;
 }
 

@@ -102,9 +102,10 @@ void seeWall(Building& a, int wall, const Building& b, bool first) {
         a.wallFrom[wall] = 0.0;
         return;
     }
-    const bool higher = a.top() > b.top() || (first && a.top() >= b.top());
+    const double mine = a.baseY + a.top(), theirs = b.baseY + b.top();
+    const bool higher = mine > theirs || (first && mine >= theirs);
     a.walls[wall] = higher ? WallUse::party : WallUse::hidden;
-    a.wallFrom[wall] = b.roofY() - 0.4;
+    a.wallFrom[wall] = std::max(0.0, b.roofY() - 0.4 + (b.baseY - a.baseY));
 }
 
 }  // namespace

@@ -23,6 +23,16 @@ class MeshBuilder {
     void addQuad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, std::uint32_t material);
     void reserve(std::uint64_t triangles);
 
+    [[nodiscard]] std::size_t triangleCount() const { return mesh_.triangles.size(); }
+    [[nodiscard]] std::size_t vertexCount() const { return mesh_.positions.size(); }
+    // Raises the vertices from `first` on by what `metres(x, z)` gives.
+    template <class Metres>
+    void raise(std::size_t first, const Metres& metres) {
+        for (std::size_t i = first; i < mesh_.positions.size(); ++i) {
+            mesh_.positions[i].y += metres(mesh_.positions[i].x, mesh_.positions[i].z);
+        }
+    }
+
     // The mesh with area-weighted normals.
     [[nodiscard]] SourceMesh finish();
 

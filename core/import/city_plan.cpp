@@ -105,7 +105,7 @@ void addUnit(CityPlan& plan, const Cell& cell, const Rect& region, std::initiali
     }
     for (const Building& building : unit.buildings) {
         // 3 m: machinery, chimneys and their noise.
-        plan.highestTop = std::max(plan.highestTop, building.top() + pitchedRoofHeight(building) + 3.0);
+        plan.highestTop = std::max(plan.highestTop, building.baseY + building.top() + pitchedRoofHeight(building) + 3.0);
     }
     plan.units.push_back(std::move(unit));
 }
@@ -137,6 +137,12 @@ void fillCell(CityPlan& plan, const Cell& cell, std::uint64_t units, std::uint32
                             cell.centrality,
                             random.bits()};
     Row north = makeRow(northPlan), south = makeRow(southPlan);
+    for (Row* row : {&north, &south}) {
+        for (Building& b : row->buildings) {
+            const Rect& f = b.footprint;
+            b.baseY = plan.hills.within(f.x0, f.z0, f.x1, f.z1).high;
+        }
+    }
     findSeenWalls(north, south);
     const Rect& all = cell.region;
     if (units == 1) {
@@ -183,6 +189,9 @@ CityPlan makePlan(const CityOptions& options) {
     plan.alongX = layStreets(random, grid.rows, 260, 330, plan.ground.z1);
     plan.ground.x0 = plan.alongZ.front().centre - plan.alongZ.front().halfWidth();
     plan.ground.z0 = plan.alongX.front().centre - plan.alongX.front().halfWidth();
+
+    plan.hills = {options.terrain,  static_cast<std::uint32_t>(options.seed), plan.ground.x0, plan.ground.z0,
+                   plan.ground.x1, plan.ground.z1};
 
     // The remainder goes to cells spread evenly.
     const std::uint64_t cells = grid.columns * grid.rows;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "import/city.h"
+#include "import/city_hills.h"
 
 namespace fb::city {
 
@@ -54,6 +55,7 @@ struct Building {
     int groundFloorDecimetres = 35, floorDecimetres = 32, parapetDecimetres = 5;
     bool shop = false;
     RoofShape roof = RoofShape::flat;
+    double baseY = 0.0;  // of its ground floor: the highest ground of its footprint
     std::uint64_t seed = 0;
 
     [[nodiscard]] double roofY() const {
@@ -80,6 +82,7 @@ struct CityPlan {
     Rect ground;
     std::vector<Unit> units;                     // by cell; cells by rows from the north west
     std::vector<std::uint32_t> firstUnitOfCell;  // one more than there are cells
+    Hills hills;
     double highestTop = 0.0;                     // of all buildings, roofs and what stands on them
     std::uint64_t seed = 0;
 

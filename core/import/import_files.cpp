@@ -4,10 +4,10 @@
 #include <cmath>
 #include <new>
 
-#include "base/file_io.h"
 #include "base/hash.h"
 #include "import/clean_mesh.h"
 #include "import/guess_up.h"
+#include "import/hash_file.h"
 #include "import/import_limits.h"
 #include "import/mesh_file.h"
 #include "import/split_blocks.h"
@@ -44,20 +44,6 @@ struct CleanFile {
     std::vector<std::uint32_t> groups;
     std::vector<std::string> groupNames;
 };
-
-Result<std::uint64_t> hashOfFile(const std::filesystem::path& path) {
-    Result<FileReader> file = FileReader::open(path);
-    if (!file) return passOn(file);
-    Hasher hasher;
-    std::vector<std::uint8_t> chunk(std::size_t{1} << 20);
-    for (std::uint64_t at = 0; at < file->sizeBytes(); at += chunk.size()) {
-        const std::uint64_t left = file->sizeBytes() - at;
-        const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(left, chunk.size()));
-        if (Result<void> read = file->readAt(at, {chunk.data(), size}); !read) return passOn(read);
-        hasher.bytes(chunk.data(), size);
-    }
-    return hasher.digest();
-}
 
 // Coordinates far from zero lose their last digits in 32 bits: they are kept relative to whole metres near
 // the middle.
@@ -144,7 +130,7 @@ class Import {
         hasher_.number(static_cast<std::uint64_t>(loaded->format)).number(loaded->contentHash);
         info_.files.push_back(path);
         for (const std::filesystem::path& other : loaded->mesh.otherFiles) {
-            Result<std::uint64_t> hash = hashOfFile(other);
+            Result<std::uint64_t> hash = hashFile(other);
             if (!hash) return passOn(hash);
             hasher_.number(*hash);
             info_.files.push_back(other);

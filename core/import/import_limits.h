@@ -20,6 +20,9 @@ inline constexpr double kMaxCoordinate = 1e15;
 // A scene numbers its packs with five digits.
 inline constexpr std::uint64_t kMaxBlocks = 99999;
 
+// Height maps and the pictures on them: longest side. They are read in strips and need not fit into memory.
+inline constexpr int kMaxRowsSide = 1 << 22;
+
 // Textures held whole: longest side, pixels (1 GiB as RGBA), and how many bytes of pixels one encoded byte may stand
 // for. Deflate reaches 1,032, a progressive JPEG of one colour somewhat more.
 inline constexpr int kMaxTextureSide = 32768;

@@ -106,6 +106,8 @@ struct SourceInfo {
     ImportReport report;
 };
 
+class TerrainSource;
+
 // Blocks are made one at a time, so that a scene need not fit into memory. `load` may be called from several threads
 // at once and gives the same block for the same index every time.
 class BlockSource {
@@ -114,6 +116,8 @@ class BlockSource {
     [[nodiscard]] virtual const SourceInfo& info() const = 0;
     [[nodiscard]] virtual std::size_t blockCount() const = 0;
     [[nodiscard]] virtual Result<SourceBlock> load(std::size_t block) const = 0;
+    // The ground below, a hierarchy of its own (terrain_source.h); none where there is no height map.
+    [[nodiscard]] virtual const TerrainSource* terrain() const { return nullptr; }
 };
 
 // Decodes a texture: width, height and channels are checked against caps before any pixel is read; 16-bit, float and

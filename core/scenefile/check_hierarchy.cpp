@@ -145,7 +145,9 @@ Result<void> checkHierarchy(const Hierarchy& h) {
     if (h.rootCount == 0 || h.rootCount > h.size() || h.rootCount > kMaxBlocks) {
         return failure({}, {}, "the number of roots is out of range: " + std::to_string(h.rootCount));
     }
-    if (h.grids.size() != h.rootCount) return failure({}, {}, "each block must have one root and one grid");
+    if (h.grids.size() != h.rootCount || h.kinds.size() != h.rootCount) {
+        return failure({}, {}, "each block must have one root, one grid and one kind");
+    }
     for (std::size_t b = 0; b < h.grids.size(); ++b) {
         if (Fault fault = checkGrid(h.grids[b]); !fault.empty()) {
             return failure({}, "block " + std::to_string(b), std::move(fault));

@@ -30,6 +30,9 @@ struct BlockGrid {
     double step = 1.0;       // metres
 };
 
+// What a block's nodes were made from. Every block has one root; a terrain's nodes are squares of a quadtree.
+enum class BlockKind : std::uint8_t { objects, terrain };
+
 struct Hierarchy {
     std::uint32_t rootCount = 0;
     std::vector<NodeId> parent;      // kNoNode for roots
@@ -50,9 +53,11 @@ struct Hierarchy {
     std::vector<std::uint32_t> residentBytes;  // mesh + texture with mip levels, as uploaded
     std::vector<PayloadRef> payload;
     std::vector<BlockGrid> grids;  // by block
+    std::vector<BlockKind> kinds;  // by block
 
     [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(parent.size()); }
     [[nodiscard]] bool isLeaf(NodeId n) const { return childCount[n] == 0; }
+    [[nodiscard]] bool isTerrain(NodeId n) const { return kinds[block[n]] == BlockKind::terrain; }
     [[nodiscard]] std::uint32_t triangles(NodeId n) const { return texturedTriangles[n] + untexturedTriangles[n]; }
     [[nodiscard]] NodeId nextSibling(NodeId n) const {
         return n + 1 < size() && parent[n + 1] == parent[n] && parent[n] != kNoNode ? n + 1 : kNoNode;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::string_view kMagic = "fbscene\n";
 
-void putBlock(ByteWriter& out, const BlockGrid& grid, const StoredPack& pack) {
+void putBlock(ByteWriter& out, const BlockGrid& grid, BlockKind kind, const StoredPack& pack) {
     out.put(pack.number)
-        .put(std::uint32_t{0})
+        .put(std::uint32_t{static_cast<std::uint8_t>(kind)})
         .put(grid.origin)
         .put(grid.step)
         .put(pack.sizeBytes)
@@ -111,15 +111,19 @@ Result<void> readBlocks(std::span<const std::uint8_t> table, HierarchyFile& file
     for (std::size_t b = 0; b < file.packs.size(); ++b) {
         StoredPack& pack = file.packs[b];
         in.get(pack.number);
-        const auto reserved = in.get<std::uint32_t>();
+        const auto kind = in.get<std::uint32_t>();
         in.get(file.hierarchy.grids[b].origin);
         in.get(file.hierarchy.grids[b].step);
         in.get(pack.sizeBytes);
         in.get(pack.seal);
         const bool ascending = b == 0 || pack.number > file.packs[b - 1].number;
-        if (reserved != 0 || !ascending || pack.number >= kMaxBlocks) {
+        if (!ascending || pack.number >= kMaxBlocks) {
             return failure(what, "block " + std::to_string(b), "the number of its pack cannot be");
         }
+        if (kind > static_cast<std::uint32_t>(BlockKind::terrain)) {
+            return failure(what, "block " + std::to_string(b), "its kind is unknown");
+        }
+        file.hierarchy.kinds[b] = static_cast<BlockKind>(kind);
     }
     return {};
 }
@@ -149,8 +153,9 @@ bool insidePack(const PayloadRef& payload, const StoredPack& pack) {
 std::vector<std::uint8_t> encodeHierarchyFile(const HierarchyFile& file) {
     const Hierarchy& h = file.hierarchy;
     FB_CHECK(file.packs.size() == h.grids.size());
+    FB_CHECK(file.packs.size() == h.kinds.size());
     ByteWriter blocks;
-    for (std::size_t b = 0; b < file.packs.size(); ++b) putBlock(blocks, h.grids[b], file.packs[b]);
+    for (std::size_t b = 0; b < file.packs.size(); ++b) putBlock(blocks, h.grids[b], h.kinds[b], file.packs[b]);
     FB_CHECK(blocks.size() == file.packs.size() * kBlockRecordBytes);
     ByteWriter nodes;
     nodes.reserve(h.size() * kNodeRecordBytes);
@@ -185,6 +190,7 @@ Result<HierarchyFile> parseHierarchyFile(std::span<const std::uint8_t> bytes, co
     Hierarchy& h = file.hierarchy;
     file.packs.resize(header->blocks);
     h.grids.resize(header->blocks);
+    h.kinds.resize(header->blocks);
     h.rootCount = header->blocks;
     h.resize(header->nodes);
     if (Result<void> read = readBlocks(blocks, file, what); !read) return passOn(read);

@@ -1,6 +1,6 @@
 // hierarchy.bin: the scene description file of the thesis (design section 5), as bytes.
 //   header       magic, version, numbers of blocks and nodes, checksums of both tables and of itself (48
-//   bytes) block table  pack number, grid, length and seal of the pack (56 bytes a block) node table   one
+//   bytes) block table  pack number, kind, grid, length and seal of the pack (56 bytes a block) node table   one
 //   record a node, breadth first (124 bytes a node)
 #pragma once
 

@@ -70,6 +70,7 @@ Hierarchy joinBlocks(const std::vector<BuiltBlock>& blocks) {
         if (block.nodes.empty()) continue;
         joining.push_back({&block, {}});
         h.grids.push_back(block.grid);
+        h.kinds.push_back(block.kind);
     }
     h.rootCount = static_cast<std::uint32_t>(joining.size());
     NodeId id = 0;

@@ -78,6 +78,7 @@ std::vector<std::uint8_t> encodeTrailer(const PackTrailer& trailer) {
     ByteWriter out;
     out.text(kTrailerMagic).put(trailer.settingsHash).put(trailer.blockHash);
     out.put(trailer.block.grid.origin).put(trailer.block.grid.step);
+    out.put(std::uint64_t{static_cast<std::uint8_t>(trailer.block.kind)});
     out.put(static_cast<std::uint64_t>(trailer.block.nodes.size()));
     const std::size_t head = out.size();
     for (const BuiltNode& node : trailer.block.nodes) putNode(out, node);
@@ -96,10 +97,13 @@ Result<PackTrailer> parseTrailer(std::span<const std::uint8_t> bytes, const std:
     in.get(trailer.blockHash);
     in.get(trailer.block.grid.origin);
     in.get(trailer.block.grid.step);
+    const auto kind = in.get<std::uint64_t>();
     const auto count = in.get<std::uint64_t>();
     if (!in.whole() || in.left() < 16) return fault("is cut short");
     if (count > kMaxNodes || count * kBuiltNodeBytes != in.left() - 16)
         return fault("claims a wrong number of nodes");
+    if (kind > static_cast<std::uint64_t>(BlockKind::terrain)) return fault("its kind of block is unknown");
+    trailer.block.kind = static_cast<BlockKind>(kind);
     trailer.block.nodes.resize(count);
     for (BuiltNode& node : trailer.block.nodes) {
         if (!getNode(in, node)) return fault("has a node whose level is out of range");

@@ -16,7 +16,7 @@
 
 namespace fb {
 
-inline constexpr std::uint32_t kSceneFormatVersion = 2;
+inline constexpr std::uint32_t kSceneFormatVersion = 3;
 
 struct SceneInfo {
     std::string name;
@@ -75,6 +75,7 @@ struct BuiltNode {
 // A finished block: its nodes breadth first (node 0 the root, children contiguous) and the payload refs into its pack.
 struct BuiltBlock {
     BlockGrid grid;
+    BlockKind kind = BlockKind::objects;
     std::vector<BuiltNode> nodes;
 };
 

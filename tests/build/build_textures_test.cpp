@@ -54,6 +54,7 @@ void visitPoints(const BlockBuild& built, std::size_t node, Random& random, int 
     const Image atlas = mesh.texturedTriangles > 0 ? decode(built.nodes[node]) : Image{};
     for (int i = 0; i < count; ++i) {
         const std::size_t t = random.index(mesh.indices.size() / 3);
+        if (mesh.isSkirt(static_cast<std::uint32_t>(t))) continue;  // hangs from the surface, behind it
         double a = random.uniform(), b = random.uniform();
         if (a + b > 1.0) {
             a = 1.0 - a;

@@ -118,6 +118,7 @@ NodeId World::add(DecodedNode content, const glm::dvec3& gridOrigin, std::uint8_
     hierarchy.level.push_back(level);
     hierarchy.block.push_back(node);
     hierarchy.grids.push_back({gridOrigin, gridStep});
+    hierarchy.kinds.push_back(BlockKind::objects);
     hierarchy.bounds.push_back(bounds);
     contents.push_back(std::move(content));
     front.push_back(node);

@@ -19,7 +19,8 @@ void put(Bytes& bytes, std::size_t at, std::uint64_t value) {
 
 void fuzzHierarchy(Bytes bytes) {
     if (bytes.size() < fb::kHierarchyHeaderBytes) return;
-    std::memcpy(bytes.data(), "fbscene\n\x01\0\0\0", 12);
+    std::memcpy(bytes.data(), "fbscene\n", 8);
+    std::memcpy(&bytes[8], &fb::kSceneFormatVersion, 4);
     // As many nodes as there are bytes for; the number of blocks is the fuzzer's.
     const std::size_t tables = bytes.size() - fb::kHierarchyHeaderBytes;
     const std::size_t blocks = bytes[12];
@@ -45,7 +46,7 @@ void fuzzTrailer(Bytes bytes) {
         (bytes.size() - (fb::kLeastTrailerBytes - fb::kBuiltNodeBytes)) / fb::kBuiltNodeBytes;
     bytes.resize(fb::kLeastTrailerBytes - fb::kBuiltNodeBytes + nodes * fb::kBuiltNodeBytes);
     std::memcpy(bytes.data(), fb::kTrailerMagic.data(), 8);
-    put(bytes, 56, nodes);
+    put(bytes, 64, nodes);
     put(bytes, bytes.size() - 16, bytes.size());
     put(bytes, bytes.size() - 8, fb::hashBytes(bytes.data(), bytes.size() - 8));
     const fb::Result<fb::PackTrailer> trailer = fb::parseTrailer(bytes, "fuzz");

@@ -41,6 +41,7 @@ inline Hierarchy makeHierarchy(std::span<const NodeSpec> specs) {
         if (h.childCount[parent]++ == 0) h.firstChild[parent] = n;
     }
     h.grids.resize(1);
+    h.kinds.resize(1);
     return h;
 }
 

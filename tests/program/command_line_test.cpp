@@ -27,7 +27,10 @@ void expectOneLine(const ProgramRun& run, int exitCode, const std::string& part)
 
 TEST(CommandLine, AnUnknownOptionIsWrongUsage) { expectOneLine(runProgram("replay --out o --colour red"), 2, "--colour"); }
 
-TEST(CommandLine, ACommandWithoutItsArgumentsIsWrongUsage) { expectOneLine(runProgram("build"), 2, "INPUT"); }
+TEST(CommandLine, ACommandWithoutItsArgumentsIsWrongUsage) { 
+    expectOneLine(runProgram("build"), 2, "--output");
+    expectOneLine(runProgram("build -o nothing.fbscene"), 2, "INPUT");
+}
 
 TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
     const ProgramRun help = runProgram("--help");

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "scenefile/hierarchy.h"
+#include "scenefile/hierarchy_file.h"
 #include "scenefile/limits.h"
 #include "scenefile/node_data.h"
 #include "scenefile/tiny_scene.h"
@@ -24,6 +25,7 @@ Hierarchy sixNodes() {
     h.resize(6);
     h.rootCount = 2;
     h.grids.resize(2);
+    h.kinds.resize(2);
     h.parent = {kNoNode, kNoNode, 0, 0, 1, 3};
     h.firstChild = {2, 4, kNoNode, 5, kNoNode, kNoNode};
     h.childCount = {2, 1, 0, 1, 0, 0};
@@ -52,7 +54,8 @@ TEST(CheckHierarchy, NamesTheNodeThatBreaksARule) {
         {[](Hierarchy& h) { h.payload.emplace_back(); }, "differ in length"},
         {[](Hierarchy& h) { h.rootCount = 0; }, "number of roots"},
         {[](Hierarchy& h) { h.rootCount = 7; }, "number of roots"},
-        {[](Hierarchy& h) { h.grids.pop_back(); }, "one root and one grid"},
+        {[](Hierarchy& h) { h.grids.pop_back(); }, "one root, one grid and one kind"},
+        {[](Hierarchy& h) { h.kinds.pop_back(); }, "one root, one grid and one kind"},
         {[](Hierarchy& h) { h.grids[1].step = 0.3; }, "block 1: the grid's step is not a power of two"},
         {[](Hierarchy& h) { h.grids[1].step = -0.5; }, "block 1: the grid's step"},
         {[](Hierarchy& h) { h.grids[1].step = 0.0; }, "block 1: the grid's step"},
@@ -137,6 +140,7 @@ Hierarchy chain(std::uint32_t nodes) {
     h.resize(nodes);
     h.rootCount = 1;
     h.grids.resize(1);
+    h.kinds.resize(1);
     for (NodeId n = 0; n < nodes; ++n) {
         h.level[n] = static_cast<std::uint8_t>(n);
         h.bounds[n] = {glm::vec3(0.0f), glm::vec3(1.0f)};
@@ -182,6 +186,16 @@ BuiltNode built(std::uint32_t parent, std::uint32_t children, std::uint8_t level
     return node;
 }
 
+TEST(HierarchyFile, RefusesAKindOfBlockThatIsUnknown) {
+    Hierarchy h = sixNodes();
+    const auto lineWith = [&](BlockKind kind) {
+        h.kinds[1] = kind;
+        return lineOf(parseHierarchyFile(encodeHierarchyFile({h, {{0, 1000, 1}, {1, 1000, 2}}}), "h"));
+    };
+    EXPECT_TRUE(says(lineWith(static_cast<BlockKind>(2)), "h: block 1: its kind is unknown"));
+    EXPECT_FALSE(says(lineWith(BlockKind::terrain), "kind"));
+}
+
 //  block A:  10          block B:  20          block C: no nodes      block D:  30
 //           /  \                    |
 //         11    12                 21
@@ -194,6 +208,7 @@ TEST(JoinBlocks, GoesLevelByLevelThroughAllBlocks) {
     b.nodes = {built(0, 1, 0, 20), built(0, 0, 1, 21)};
     d.nodes = {built(0, 0, 0, 30)};
     a.grid.step = 1.0, b.grid.step = 2.0, c.grid.step = 4.0, d.grid.step = 8.0;
+    b.kind = c.kind = BlockKind::terrain;
     a.nodes[3].textureWidth = a.nodes[3].textureHeight = 4;
     a.nodes[3].texturedTriangles = 2, a.nodes[3].untexturedTriangles = 3;
     const Hierarchy h = joinBlocks({a, b, c, d});
@@ -207,6 +222,9 @@ TEST(JoinBlocks, GoesLevelByLevelThroughAllBlocks) {
     EXPECT_EQ(h.block, (std::vector<std::uint32_t>{0, 1, 2, 0, 0, 1, 0}));
     ASSERT_EQ(h.grids.size(), 3u);
     EXPECT_EQ(h.grids[2].step, 8.0);
+    EXPECT_EQ(h.kinds, (std::vector<BlockKind>{BlockKind::objects, BlockKind::terrain, BlockKind::objects}));
+    EXPECT_TRUE(h.isTerrain(5));
+    EXPECT_FALSE(h.isTerrain(6));
     EXPECT_EQ(h.residentBytes[6], 13u * 24u + 5u * 12u + 84u);
     EXPECT_EQ(h.payload[6].offset, 13u);
 }

@@ -125,6 +125,7 @@ TEST(ReusePack, GivesNothingForASealedBlockThatBreaksTheRules) {
     EXPECT_TRUE(broken([](BuiltBlock& b) { std::swap(b.nodes[1].payload, b.nodes[2].payload); }));
     EXPECT_TRUE(broken([](BuiltBlock& b) { b.nodes[1].payload.pack = 1; }));
     EXPECT_TRUE(broken([](BuiltBlock& b) { b.grid.step = 0.3; }));
+    EXPECT_TRUE(broken([](BuiltBlock& b) { b.kind = static_cast<BlockKind>(2); }));
 }
 
 TEST(ParseTrailer, BelievesNoCountThatTheBytesCannotHold) {
@@ -136,7 +137,7 @@ TEST(ParseTrailer, BelievesNoCountThatTheBytesCannotHold) {
     for (std::uint64_t count :
          {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{kMaxNodes} + 1, ~std::uint64_t{0}}) {
         Bytes bytes = good;
-        std::memcpy(bytes.data() + 56, &count, 8);
+        std::memcpy(bytes.data() + 64, &count, 8);
         EXPECT_TRUE(
             says(lineOf(parseTrailer(bytes, "pack")), "pack: trailer: claims a wrong number of nodes"))
             << count;

@@ -41,7 +41,7 @@ bool same(const Hierarchy& a, const Hierarchy& b) {
         for (std::size_t i = 0; i < a.grids.size(); ++i) {
             if (a.grids[i].origin != b.grids[i].origin || a.grids[i].step != b.grids[i].step) return false;
         }
-        return a.grids.size() == b.grids.size();
+        return a.grids.size() == b.grids.size() && a.kinds == b.kinds;
     };
     return a.rootCount == b.rootCount && a.parent == b.parent && a.firstChild == b.firstChild &&
            a.childCount == b.childCount && a.level == b.level && a.block == b.block &&
@@ -58,6 +58,7 @@ bool same(const Hierarchy& a, const Hierarchy& b) {
 // in a pack.
 BuiltBlock randomBlock(std::uint32_t pack, Random& random, std::size_t wanted) {
     BuiltBlock block;
+    block.kind = random.index(2) == 0 ? BlockKind::objects : BlockKind::terrain;
     block.grid = {{random.uniform(-1e6, 1e6), random.uniform(-1e6, 1e6), 0.0},
                   std::ldexp(1.0, static_cast<int>(random.index(20)) - 16)};
     block.nodes.resize(1);

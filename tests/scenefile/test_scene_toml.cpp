@@ -42,7 +42,7 @@ SceneToml sample() {
 TEST(SceneToml, IsWrittenForPeople) {
     const std::string expected =
         "# A Frontbench scene. Lengths are metres, hashes are XXH3.\n"
-        "format = 2\n"
+        "format = 3\n"
         "program = \"frontbench 1.2.3\"\n"
         "name = \"L\xc3\xbc"
         "beck \\\"old\\\" town\\u000a\"\n"
@@ -127,9 +127,9 @@ TEST(SceneToml, NamesTheLineThatIsWrong) {
         text.replace(at, from.size(), to);
         return lineOf(parseSceneToml(text, "scene.toml"));
     };
-    EXPECT_TRUE(says(with("format = 2", "format = 9"),
-                     "line 2: made by version 9; this program reads 2 (build it again)"));
-    EXPECT_TRUE(says(with("format = 2", "format = \"2\""), "\"format\" must be a whole number"));
+    EXPECT_TRUE(says(with("format = 3", "format = 9"),
+                     "line 2: made by version 9; this program reads 3 (build it again)"));
+    EXPECT_TRUE(says(with("format = 3", "format = \"3\""), "\"format\" must be a whole number"));
     EXPECT_TRUE(says(with("up = \"z\"", "up = \"x\""), "line 5: \"up\" must be \"y\" or \"z\""));
     EXPECT_TRUE(says(with("up = \"z\"\n", ""), "\"up\" is missing"));
     EXPECT_TRUE(says(with("origin = [", "origin = [nan, "), "line 6: \"origin\" must be three finite"));

@@ -79,6 +79,7 @@ inline Hierarchy makeWorld(const std::vector<TinyNode>& roots) {
         h.geometricErrorMetres[p] = std::max(h.geometricErrorMetres[p], h.geometricErrorMetres[n] + 0.5f);
     }
     h.grids.resize(h.rootCount);
+    h.kinds.resize(h.rootCount);
     return h;
 }
 
