@@ -77,8 +77,8 @@ void checkErrors(const BlockBuild& built, Random& random) {
         const std::array self = {n};
         const TriangleTree drawn = treeOf(built, self, false), source = treeOf(built, leaves, false);
         const double bound = static_cast<double>(node.geometricErrorMetres) / built.block.grid.step;
-        RC_ASSERT(bound + kRoundingUnits >= farthestSample(source, drawn, random, 400));
-        RC_ASSERT(bound + kRoundingUnits >= farthestSample(drawn, source, random, 400));
+        RC_ASSERT(bound + kRoundingUnits >= farthestSample(source, drawn, random, 200));
+        RC_ASSERT(bound + kRoundingUnits >= farthestSample(drawn, source, random, 200));
         const BuiltNode& parent = built.block.nodes[node.parentInBlock];
         RC_ASSERT(parent.geometricErrorMetres >= node.geometricErrorMetres);
     }
