@@ -119,6 +119,12 @@ class LevelSimplifier {
         return seams == Seams::kept ? mesh_.wedges[id].position : id;
     }
 
+    // Collapses along a straight line leave some.
+    [[nodiscard]] bool hasNoArea(const glm::uvec3& ids, Seams seams) const {
+        return isDegenerate(mesh_.positions[positionOf(ids.x, seams)], mesh_.positions[positionOf(ids.y, seams)],
+                            mesh_.positions[positionOf(ids.z, seams)]);
+    }
+
     // The piece's triangles before simplification.
     [[nodiscard]] std::vector<glm::uvec3> original(std::size_t piece, Seams seams) const {
         std::vector<glm::uvec3> result;
@@ -176,7 +182,8 @@ class LevelSimplifier {
         const SimplifyOutput output = simplify(task.input);
         Joint joint{{}, output.errorGridUnits, output.carriedTriangles};
         for (const glm::uvec3& t : output.triangles) {
-            joint.triangles.push_back({{task.ids[t.x], task.ids[t.y], task.ids[t.z]}, task.pieces[t.x]});
+            const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);
+            if (!hasNoArea(ids, seams)) joint.triangles.push_back({ids, task.pieces[t.x]});
         }
         return joint;
     }
@@ -196,11 +203,7 @@ class LevelSimplifier {
         result.carriedTriangles = output.carriedTriangles;
         for (const glm::uvec3& t : output.triangles) {
             const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);
-            if (!isDegenerate(mesh_.positions[positionOf(ids.x, seams)],
-                              mesh_.positions[positionOf(ids.y, seams)],
-                              mesh_.positions[positionOf(ids.z, seams)])) {
-                result.triangles.push_back(ids);
-            }
+            if (!hasNoArea(ids, seams)) result.triangles.push_back(ids);
         }
         return result;
     }

@@ -143,6 +143,30 @@ double meshArea(const BlockBuild& built, std::size_t node) {
     return area;
 }
 
+// Exact: grid coordinates are whole numbers.
+int trianglesWithoutArea(const NodeMesh& mesh) {
+    int count = 0;
+    const auto at = [&](std::size_t i) {
+        const NodeVertex& v = mesh.vertices[mesh.indices[i]];
+        return glm::dvec3(v.x, v.y, v.z);
+    };
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+        count += glm::cross(at(i + 1) - at(i), at(i + 2) - at(i)) == glm::dvec3(0.0) ? 1 : 0;
+    return count;
+}
+
+// Walls that meet along straight lines, as houses do: collapses along such a line leave triangles without area.
+TEST(BuildBlock, LeavesNoTriangleWithoutArea) {
+    SourceMesh walls = makeSheet({40, 40, 40.0, 40.0, [](double x, double) { return x < 13.0 ? 0.0 : (x < 27.0 ? 9.0 : 3.0); }});
+    for (const Simplifier simplifier : {Simplifier::meshoptimizer, Simplifier::openMesh}) {
+        BuildSettings settings = settingsOf(32, 4);
+        settings.simplifier = simplifier;
+        const BlockBuild built = build(blockOf(walls), settings);
+        for (std::size_t i = 0; i < built.nodes.size(); ++i)
+            EXPECT_EQ(trianglesWithoutArea(built.nodes[i].mesh), 0) << "node " << i;
+    }
+}
+
 TEST(BuildBlock, KeepsTheAreaOfTheSourceInItsLeaves) {
     const SourceMesh sheet = makeSheet({60, 50, 61.7, 48.3, ripple});
     for (const std::int64_t factor : {2, 3, 4, 7}) {
@@ -252,6 +276,7 @@ RC_GTEST_PROP(BuildBlock, MakesASoundHierarchyOfEveryTriangleSoup, (std::uint64_
         RC_ASSERT(node.texturedTriangles == 0 || node.textureWidth > 0);
         RC_ASSERT(std::isfinite(node.staticBenefit));
         RC_ASSERT(node.staticBenefit > 0.0f);
+        RC_ASSERT(trianglesWithoutArea(mesh) == 0);
         for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
             const glm::dvec3 at = NodeView{*built, i}.at(v);
             RC_ASSERT((Box3d{node.bounds.min, node.bounds.max}.contains(at)));
