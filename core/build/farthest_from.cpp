@@ -10,10 +10,11 @@ namespace {
 
 // After so many cuts a part is 256 times smaller, and what it adds at most is taken for what it adds: work is bounded.
 constexpr int kDeepest = 16;
+// In the first cuts a side that leads over several creases counts for so many times its length.
 constexpr int kFirstCuts = 8;
-constexpr float kFarSide = 3.0f;  // so many times as long counts a side that leads over several creases
-constexpr float kTouching = 2.0f;  // grid units
-constexpr float kEnough = 0.5f;   // of the bound: a face as close as this need not be the closest
+constexpr float kFarSide = 3.0f;
+constexpr float kTouching = 2.0f;  // grid units: a corner this close to `to` may belong to several of its faces
+constexpr float kEnough = 0.5f;    // of the bound: a face as close as this need not be the closest
 constexpr auto kShare = static_cast<float>(1.0 + kFarthestRelative);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 

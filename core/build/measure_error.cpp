@@ -3,37 +3,24 @@
 #include <algorithm>
 
 #include "build/farthest_from.h"
+#include "build/numbering.h"
 
 namespace fb {
 namespace {
 
-// Numbers positions from 0 on, anew for each surface, without clearing a table.
-class SurfaceMaker {
-  public:
-    explicit SurfaceMaker(const BlockMesh& mesh) : mesh_(mesh), number_(mesh.positions.size()), stamp_(mesh.positions.size(), 0) {}
-
-    MeasuredSurface make(std::vector<glm::uvec3> triangles) {
-        ++current_;
-        std::vector<glm::vec3> points;
-        for (glm::uvec3& t : triangles) {
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t position = t[k];
-                if (stamp_[position] != current_) {
-                    stamp_[position] = current_;
-                    number_[position] = static_cast<std::uint32_t>(points.size());
-                    points.emplace_back(mesh_.positions[position]);
-                }
-                t[k] = number_[position];
-            }
+MeasuredSurface surfaceOf(const BlockMesh& mesh, std::vector<glm::uvec3> triangles, Numbering& numbering) {
+    numbering.restart();
+    std::vector<glm::vec3> points;
+    for (glm::uvec3& t : triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const auto next = static_cast<std::uint32_t>(points.size());
+            const std::uint32_t known = numbering.findOrSet(t[k], next);
+            if (known == kNone) points.emplace_back(mesh.positions[t[k]]);
+            t[k] = known == kNone ? next : known;
         }
-        return {std::move(points), std::move(triangles)};
     }
-
-  private:
-    const BlockMesh& mesh_;
-    std::vector<std::uint32_t> number_, stamp_;
-    std::uint32_t current_ = 0;
-};
+    return {std::move(points), std::move(triangles)};
+}
 
 // Pieces of some finer level: those of one parent stand together.
 struct Range {
@@ -66,10 +53,10 @@ std::vector<std::vector<double>> measureErrors(const BlockMesh& mesh, const std:
     if (levels.size() < 2) return errors;
 
     const std::size_t finest = levels.size() - 2;
-    SurfaceMaker maker(mesh);
+    Numbering numbering(mesh.positions.size());
     std::vector<MeasuredSurface> originals;
     for (std::size_t i = 0; i < levels[finest].original.pieces.size(); ++i)
-        originals.push_back(maker.make(positionsOf(mesh, levels[finest].piece(i))));
+        originals.push_back(surfaceOf(mesh, positionsOf(mesh, levels[finest].piece(i)), numbering));
 
     Measured finer;
     for (std::size_t l = finest + 1; l-- > 0;) {
@@ -78,10 +65,10 @@ std::vector<std::vector<double>> measureErrors(const BlockMesh& mesh, const std:
             l == finest ? std::vector<Range>{} : childrenOf(levels[l + 1].original, pieces);
         Measured here;
         for (std::size_t i = 0; i < pieces; ++i) {
-            here.surfaces.push_back(maker.make(levels[l].drawn(mesh, i)));
+            here.surfaces.push_back(surfaceOf(mesh, levels[l].drawn(mesh, i), numbering));
             const MeasuredSurface& surface = here.surfaces.back();
             double below = 0.0, behind = 0.0;
-            std::vector<TriangleCorners> drawnBelow;  // what they draw
+            std::vector<TriangleCorners> drawnBelow;  // by the children
             if (l == finest) {
                 here.originals.push_back({i, i + 1});
             } else {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/check.h"
+#include "build/numbering.h"
 #include "build/simplify_mesh.h"
 
 namespace fb {
@@ -27,25 +28,6 @@ struct Task {
     std::vector<std::uint32_t> pieces;  // by vertex
 };
 
-// Numbers given to ids, again and again from the start without clearing a table.
-class Numbering {
-  public:
-    explicit Numbering(std::size_t ids) : numbers_(ids, 0), stamps_(ids, 0) {}
-
-    void restart() { ++stamp_; }
-    // The number of `id` since the last restart, or kNone and `next` from now on.
-    std::uint32_t findOrSet(std::uint32_t id, std::uint32_t next) {
-        if (stamps_[id] == stamp_) return numbers_[id];
-        stamps_[id] = stamp_;
-        numbers_[id] = next;
-        return kNone;
-    }
-
-  private:
-    std::vector<std::uint32_t> numbers_, stamps_;
-    std::uint32_t stamp_ = 0;
-};
-
 enum class Seams : std::uint8_t { kept, welded };
 enum class Cuts : std::uint8_t { seams, locked };
 
@@ -62,7 +44,6 @@ class LevelSimplifier {
         const std::size_t pieces = level_.pieces.size();
         Seams seams = Seams::kept;
         std::vector<std::vector<glm::uvec3>> joint(pieces);
-        double jointError = 0.0;
         std::uint64_t jointCarried = 0;
         const std::size_t jointAim = std::accumulate(aims.begin(), aims.end(), std::size_t{0});
         const bool together = pieces > 1 && level_.triangles.size() > jointAim;
@@ -76,7 +57,6 @@ class LevelSimplifier {
                 }
             }
             for (const TaggedTriangle& t : result.triangles) joint[t.piece].push_back(t.ids);
-            jointError = result.errorGridUnits;
             jointCarried = result.carriedTriangles;
         } else {
             for (std::size_t i = 0; i < pieces; ++i) joint[i] = original(i, Seams::kept);
@@ -85,7 +65,6 @@ class LevelSimplifier {
         for (std::size_t i = 0; i < pieces; ++i) {
             result[i] =
                 simplifyAlone(i, joint[i], seams, {aims[i], together ? mostTriangles(aims[i]) : aims[i]});
-            if (!joint[i].empty()) result[i].errorGridUnits += jointError;
         }
         if (pieces > 0) result[0].carriedTriangles += jointCarried;
         return result;
@@ -94,7 +73,6 @@ class LevelSimplifier {
   private:
     struct Joint {
         std::vector<TaggedTriangle> triangles;
-        double errorGridUnits = 0.0;
         std::uint64_t carriedTriangles = 0;
     };
 
@@ -180,7 +158,7 @@ class LevelSimplifier {
         Task task = makeTask(all, seams, Cuts::seams);
         task.input.targetTriangles = aim;
         const SimplifyOutput output = simplify(task.input);
-        Joint joint{{}, output.errorGridUnits, output.carriedTriangles};
+        Joint joint{{}, output.carriedTriangles};
         for (const glm::uvec3& t : output.triangles) {
             const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);
             if (!hasNoArea(ids, seams)) joint.triangles.push_back({ids, task.pieces[t.x]});
@@ -199,7 +177,6 @@ class LevelSimplifier {
         SimplifiedPiece result;
         result.welded = seams == Seams::welded;
         result.clustered = sloppy;
-        result.errorGridUnits = output.errorGridUnits;
         result.carriedTriangles = output.carriedTriangles;
         for (const glm::uvec3& t : output.triangles) {
             const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);

@@ -24,7 +24,6 @@ struct SimplifiedPiece {
     bool welded = false;
     bool clustered = false;  // then not even pieces of one level meet at cuts
     bool stuck = false;
-    double errorGridUnits = 0.0;  // the simplifier's estimate, both steps added
     std::uint64_t carriedTriangles = 0;
 };
 

@@ -25,7 +25,6 @@ struct SimplifyInput {
 
 struct SimplifyOutput {
     std::vector<glm::uvec3> triangles;
-    double errorGridUnits = 0.0;  // the simplifier's own estimate
     std::uint64_t carriedTriangles =
         0;  // non-manifold ones that OpenMesh could not connect, kept with locked corners
 };

@@ -33,12 +33,9 @@ SimplifyOutput simplifyWithMeshoptimizer(const SimplifyInput& input) {
     }
     const std::size_t indices = input.triangles.size() * 3;
     std::vector<std::uint32_t> result(indices);
-    float error = 0.0f;
     const std::size_t kept = meshopt_simplify(result.data(), &input.triangles[0].x, indices, &points[0].x,
                                               points.size(), sizeof(glm::vec3), input.targetTriangles * 3,
-                                              static_cast<float>(kErrorLimit), 0, &error);
-    output.errorGridUnits = static_cast<double>(error) * static_cast<double>(meshopt_simplifyScale(
-                                                             &points[0].x, points.size(), sizeof(glm::vec3)));
+                                              static_cast<float>(kErrorLimit), 0, nullptr);
     takeTriangles(result, kept, input, output);
     return output;
 }
@@ -48,13 +45,9 @@ SimplifyOutput simplifySloppily(const SimplifyInput& input) {
     if (input.triangles.empty()) return output;
     const std::size_t indices = input.triangles.size() * 3;
     std::vector<std::uint32_t> result(indices);
-    float error = 0.0f;
     const std::size_t kept = meshopt_simplifySloppy(
         result.data(), &input.triangles[0].x, indices, &input.points[0].x, input.points.size(),
-        sizeof(glm::vec3), input.targetTriangles * 3, kNoErrorLimit, &error);
-    output.errorGridUnits =
-        static_cast<double>(error) * static_cast<double>(meshopt_simplifyScale(
-                                         &input.points[0].x, input.points.size(), sizeof(glm::vec3)));
+        sizeof(glm::vec3), input.targetTriangles * 3, kNoErrorLimit, nullptr);
     takeTriangles(result, kept, input, output);
     return output;
 }

@@ -47,7 +47,6 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
 
     void limitError(double distance) { squaredLimit_ = distance * distance; }
     FaceCorners& corners(OpenMesh::FaceHandle face) { return mesh().property(corners_, face); }
-    [[nodiscard]] double largestSquaredError() const { return largestSquaredError_; }
 
     float collapse_priority(const CollapseInfo& info) override {
         if (foldsFeature(info) || turnsFaceOver(info) || squaredDistanceToFaces(info) > squaredLimit_) {
@@ -59,7 +58,6 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
     }
 
     void preprocess_collapse(const CollapseInfo& info) override {
-        largestSquaredError_ = std::max(largestSquaredError_, squaredDistanceToFaces(info));
         // Faces to the left of v0v1 take the vertex that the left face shows at v1, faces to the right the
         // right one's.
         const std::uint32_t leftFrom = sideVertex(info.fl, info.v0), leftTo = sideVertex(info.fl, info.v1);
@@ -141,7 +139,7 @@ class SeamQuadric : public OpenMesh::Decimater::ModQuadricT<Mesh> {
     }
 
     OpenMesh::FPropHandleT<FaceCorners> corners_;
-    double largestSquaredError_ = 0.0, squaredLimit_ = std::numeric_limits<double>::infinity();
+    double squaredLimit_ = std::numeric_limits<double>::infinity();
 };
 
 // The half-edge mesh of the input: vertices are places. A face that would be non-manifold gets corners of its
@@ -255,7 +253,6 @@ SimplifyOutput simplifyWithOpenMesh(const SimplifyInput& input) {
         }
         output.triangles.push_back(triangle);
     }
-    output.errorGridUnits = std::sqrt(module.largestSquaredError());
     return output;
 }
 

@@ -6,6 +6,7 @@
 #include "import/find_beside.h"
 #include "import/parse_text.h"
 #include "import/textures_of_file.h"
+#include "import/srgb.h"
 
 namespace fb {
 namespace {
@@ -149,10 +150,6 @@ class Materials {
 };
 
 }  // namespace
-
-double encodeSrgb(double linear) {
-    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
 
 std::vector<GltfTextureUse> addGltfMaterials(const tinygltf::Model& model, MeshFile& into,
                                              TexturesOfFile& textures, ImportReport& report) {

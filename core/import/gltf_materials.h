@@ -23,7 +23,4 @@ class TexturesOfFile;
 [[nodiscard]] std::vector<GltfTextureUse> addGltfMaterials(const tinygltf::Model& model, MeshFile& into,
                                                            TexturesOfFile& textures, ImportReport& report);
 
-// Linear light, 0 to 1, in the encoding of sRGB.
-[[nodiscard]] double encodeSrgb(double linear);
-
 }  // namespace fb

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/file_io.h"
 #include "base/result.h"
 
 namespace fb {
@@ -25,6 +26,18 @@ class ByteSource {
     [[nodiscard]] virtual std::uint64_t sizeBytes() const = 0;
     // Fills `into` from `offset`; false where that reaches beyond the end.
     [[nodiscard]] virtual bool readAt(std::uint64_t offset, std::span<std::uint8_t> into) const = 0;
+};
+
+class FileBytes final : public ByteSource {
+  public:
+    explicit FileBytes(FileReader&& file) : file_(std::move(file)) {}
+    [[nodiscard]] std::uint64_t sizeBytes() const override { return file_.sizeBytes(); }
+    [[nodiscard]] bool readAt(std::uint64_t offset, std::span<std::uint8_t> into) const override {
+        return file_.readAt(offset, into).has_value();
+    }
+
+  private:
+    FileReader file_;
 };
 
 // TGA, which has no mark, is recognised by the name.

@@ -7,8 +7,9 @@
 #include "base/hash.h"
 #include "import/geo_tags.h"
 #include "import/hash_file.h"
-#include "import/image_rows.h"
+#include "import/height_rows.h"
 #include "import/import_limits.h"
+#include "import/texture_reader.h"
 
 namespace fb {
 namespace {
@@ -16,6 +17,11 @@ namespace {
 constexpr std::uint64_t kTerrainImportVersion = 1;  // raise it when the same files give other heights
 // A larger value means nothing: no height, but a fill value such as the lowest float.
 constexpr double kMostMetres = 1e9;
+constexpr int kStripRows = 64;
+
+Result<std::unique_ptr<TextureReader>> openDrape(const std::filesystem::path& file) {
+    return TextureReader::open({file.string(), file, {}}, TextureUse::byTiles);
+}
 
 class TerrainFile final : public TerrainSource {
   public:
@@ -26,7 +32,7 @@ class TerrainFile final : public TerrainSource {
     [[nodiscard]] TerrainInfo& change() { return info_; }
 
     [[nodiscard]] Result<void> readHeights(const TakeHeights& take) const override {
-        Result<ImageRows> image = ImageRows::open(options_.heights, "a height map");
+        Result<HeightRows> image = HeightRows::open(options_.heights);
         if (!image) return passOn(image);
         std::vector<float> heights;
         return image->readValues([&](std::uint32_t first, std::span<const double> values) -> Result<void> {
@@ -37,9 +43,26 @@ class TerrainFile final : public TerrainSource {
         });
     }
     [[nodiscard]] Result<void> readDrape(const TakeTexels& take) const override {
-        Result<ImageRows> image = ImageRows::open(*options_.drape, "a drape");
-        if (!image) return passOn(image);
-        return image->readColours(take);
+        Result<std::unique_ptr<TextureReader>> opened = openDrape(*options_.drape);
+        if (!opened) return passOn(opened);
+        TextureReader& reader = **opened;
+        const TextureHeader& header = reader.header();
+        const auto width = static_cast<std::size_t>(header.width), channels = static_cast<std::size_t>(header.channels);
+        const int strip = header.tileHeight > 0 ? header.tileHeight : kStripRows;
+        std::vector<std::uint8_t> texels(width * channels * static_cast<std::size_t>(strip));
+        std::vector<std::uint8_t> colours(width * 3 * static_cast<std::size_t>(strip));
+        for (int row = 0; row < header.height; row += strip) {
+            const int end = std::min(row + strip, header.height);
+            if (Result<void> read = reader.readRows(row, end, texels.data()); !read) return read;
+            const std::size_t count = width * static_cast<std::size_t>(end - row);
+            for (std::size_t i = 0; i < count; ++i) {
+                for (std::size_t k = 0; k < 3; ++k)
+                    colours[i * 3 + k] = texels[i * channels + (channels >= 3 ? k : 0)];
+            }
+            if (Result<void> taken = take(static_cast<std::uint32_t>(row), std::span(colours).first(count * 3)); !taken)
+                return taken;
+        }
+        return {};
     }
 
   private:
@@ -129,7 +152,7 @@ class TerrainOpener {
     }
 
     Result<void> measure() {
-        Result<ImageRows> image = ImageRows::open(options_.heights, "a height map");
+        Result<HeightRows> image = HeightRows::open(options_.heights);
         if (!image) return passOn(image);
         Result<GeoTags> tags = readGeoTags(options_.heights);
         if (!tags) return passOn(tags);
@@ -190,14 +213,15 @@ class TerrainOpener {
 
     Result<void> drape() {
         if (!options_.drape) return {};
-        Result<ImageRows> image = ImageRows::open(*options_.drape, "a drape");
-        if (!image) return passOn(image);
+        Result<std::unique_ptr<TextureReader>> opened = openDrape(*options_.drape);
+        if (!opened) return passOn(opened);
+        const TextureHeader header = (*opened)->header();
         Result<GeoTags> tags = readGeoTags(*options_.drape);
         if (!tags) return passOn(tags);
-        const glm::dvec2 texels(image->width(), image->height()), pixels(map_.columns, map_.rows);
-        map_.drapeWidth = static_cast<int>(image->width());
-        map_.drapeHeight = static_cast<int>(image->height());
-        map_.drapeLossless = image->isLossless();
+        const glm::dvec2 texels(header.width, header.height), pixels(map_.columns, map_.rows);
+        map_.drapeWidth = header.width;
+        map_.drapeHeight = header.height;
+        map_.drapeLossless = header.lossless;
         map_.texelsPerCell = texels / pixels;
         map_.drapeFirst = 0.5 * map_.texelsPerCell;
         if (tags->cornerEastNorth && tags->pixelMetres && corner_) {

@@ -9,6 +9,7 @@
 #include "import/mesh_file.h"
 #include "import/open_gltf.h"
 #include "import/textures_of_file.h"
+#include "import/srgb.h"
 
 namespace fb {
 namespace {

@@ -13,6 +13,7 @@
 #include "import/image_format.h"
 #include "import/import_limits.h"
 #include "import/parse_text.h"
+#include "import/srgb.h"
 
 namespace fb {
 namespace {
@@ -31,18 +32,6 @@ class MemoryBytes final : public ByteSource {
     std::span<const std::uint8_t> bytes_;
 };
 
-class FileBytes final : public ByteSource {
-  public:
-    explicit FileBytes(FileReader&& file) : file_(std::move(file)) {}
-    [[nodiscard]] std::uint64_t sizeBytes() const override { return file_.sizeBytes(); }
-    [[nodiscard]] bool readAt(std::uint64_t offset, std::span<std::uint8_t> into) const override {
-        return file_.readAt(offset, into).has_value();
-    }
-
-  private:
-    FileReader file_;
-};
-
 // How many channels to take: colour with alpha, colour, grey with alpha or grey; other channels are not
 // colour.
 int channelsToTake(const OIIO::ImageSpec& spec) {
@@ -53,9 +42,7 @@ int channelsToTake(const OIIO::ImageSpec& spec) {
 
 std::uint8_t encodedByte(float linear) {
     if (!(linear > 0.0f)) return 0;
-    const double value = std::min(static_cast<double>(linear), 1.0);
-    const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(encoded * 255.0 + 0.5);
+    return static_cast<std::uint8_t>(encodeSrgb(std::min(static_cast<double>(linear), 1.0)) * 255.0 + 0.5);
 }
 
 // High dynamic range: linear light, clipped at 1, stored as sRGB.

@@ -1,14 +1,14 @@
-#include "import/image_rows.h"
+#include "import/height_rows.h"
 
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
 
 #include "base/file_io.h"
+#include "import/image_format.h"
 #include "import/import_limits.h"
 #include "import/parse_text.h"
 
@@ -17,30 +17,9 @@ namespace {
 
 constexpr std::uint32_t kStripRows = 64;
 
-struct Plugin {
-    std::string_view start;
-    const char* name;
-    bool lossless;
-};
-constexpr std::array<Plugin, 8> kPlugins = {{{"\x89PNG", "png", true},
-                                             {{"II*\0", 4}, "tiff", true},
-                                             {{"MM\0*", 4}, "tiff", true},
-                                             {{"II+\0", 4}, "tiff", true},
-                                             {{"MM\0+", 4}, "tiff", true},
-                                             {"\x76\x2f\x31\x01", "openexr", true},
-                                             {"\xff\xd8\xff", "jpeg", false},
-                                             {"RIFF", "webp", false}}};
-
-std::uint8_t srgbByte(float linear) {
-    if (!(linear > 0.0f)) return 0;
-    const double value = std::min(static_cast<double>(linear), 1.0);
-    const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(encoded * 255.0 + 0.5);
-}
-
 }  // namespace
 
-struct ImageRows::Input {
+struct HeightRows::Input {
     std::unique_ptr<OIIO::ImageInput> image;
     OIIO::ImageSpec spec;
 
@@ -57,9 +36,9 @@ struct ImageRows::Input {
     }
 };
 
-ImageRows::ImageRows() = default;
-ImageRows::~ImageRows() = default;
-ImageRows::ImageRows(ImageRows&&) noexcept = default;
+HeightRows::HeightRows() = default;
+HeightRows::~HeightRows() = default;
+HeightRows::HeightRows(HeightRows&&) noexcept = default;
 
 namespace {
 
@@ -117,26 +96,22 @@ bool convert(OIIO::TypeDesc type, const std::vector<std::uint8_t>& bytes, std::s
 
 }  // namespace
 
-Result<ImageRows> ImageRows::open(const std::filesystem::path& file, const std::string& what) {
+Result<HeightRows> HeightRows::open(const std::filesystem::path& file) {
     Result<FileReader> reader = FileReader::open(file);
     if (!reader) return passOn(reader);
-    std::array<std::uint8_t, 8> start{};
-    if (reader->sizeBytes() < start.size()) return failure(file.string(), {}, "is too short for " + what);
-    if (Result<void> read = reader->readAt(0, start); !read) return passOn(read);
-    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
-    const auto plugin = std::find_if(kPlugins.begin(), kPlugins.end(),
-                                     [&](const Plugin& p) { return text.starts_with(p.start); });
-    if (plugin == kPlugins.end()) {
-        return failure(file.string(), "byte 0", "is not an image that can be read as " + what,
+    const FileBytes bytes(std::move(*reader));
+    const std::optional<ImageFormat> format = recogniseImage(bytes, file.string());
+    if (!format) {
+        return failure(file.string(), "byte 0", "is not an image that can be read as a height map",
                        "use TIFF, PNG or OpenEXR");
     }
-    ImageRows rows;
+    HeightRows rows;
     rows.file_ = file;
     rows.input_ = std::make_unique<Input>();
-    rows.input_->image = OIIO::ImageInput::create(plugin->name);
+    rows.input_->image = OIIO::ImageInput::create(format->plugin);
     if (!rows.input_->image) {
         return failure(file.string(), {},
-                       std::string("needs the plugin '") + plugin->name + "' of OpenImageIO");
+                       std::string("needs the plugin '") + format->plugin + "' of OpenImageIO");
     }
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
@@ -149,23 +124,22 @@ Result<ImageRows> ImageRows::open(const std::filesystem::path& file, const std::
     }
     if (spec.width > kMaxRowsSide || spec.height > kMaxRowsSide) {
         return failure(file.string(), "header", "has " + size,
-                       what + " may have " + std::to_string(kMaxRowsSide) + " pixels a side");
+                       "height maps may have " + std::to_string(kMaxRowsSide) + " pixels a side");
     }
     const double decoded = static_cast<double>(spec.width) * spec.height * spec.nchannels *
                            static_cast<double>(spec.format.size());
     if (decoded >
-        (static_cast<double>(reader->sizeBytes()) + 64.0) * static_cast<double>(kMaxTextureInflation)) {
+        (static_cast<double>(bytes.sizeBytes()) + 64.0) * static_cast<double>(kMaxTextureInflation)) {
         return failure(file.string(), "header",
-                       "promises " + size + " in " + std::to_string(reader->sizeBytes()) + " bytes",
+                       "promises " + size + " in " + std::to_string(bytes.sizeBytes()) + " bytes",
                        "the file is cut off or damaged");
     }
     rows.width_ = static_cast<std::uint32_t>(spec.width);
     rows.height_ = static_cast<std::uint32_t>(spec.height);
-    rows.lossless_ = plugin->lossless && spec.get_string_attribute("compression") != "jpeg";
     return rows;
 }
 
-Result<void> ImageRows::readValues(
+Result<void> HeightRows::readValues(
     const std::function<Result<void>(std::uint32_t, std::span<const double>)>& take) {
     const OIIO::TypeDesc type = plainType(input_->spec);
     const std::uint32_t strip = input_->stripRows();
@@ -180,31 +154,6 @@ Result<void> ImageRows::readValues(
                            std::string("has pixels of a type that holds no heights: ") + type.c_str());
         }
         if (Result<void> taken = take(row, out); !taken) return taken;
-    }
-    return {};
-}
-
-Result<void> ImageRows::readColours(
-    const std::function<Result<void>(std::uint32_t, std::span<const std::uint8_t>)>& take) {
-    const OIIO::ImageSpec& spec = input_->spec;
-    const int channels = spec.nchannels >= 3 ? 3 : 1;
-    const bool linear =
-        spec.get_string_attribute("oiio:ColorSpace") == "Linear" && (spec.format.is_floating_point());
-    const std::uint32_t strip = input_->stripRows();
-    const std::size_t rowValues = std::size_t{width_} * static_cast<std::size_t>(channels);
-    std::vector<float> light(linear ? strip * rowValues : 0);
-    std::vector<std::uint8_t> bytes(strip * rowValues), colours(std::size_t{strip} * width_ * 3);
-    for (std::uint32_t row = 0; row < height_; row += strip) {
-        const std::uint32_t end = std::min(height_, row + strip);
-        void* into = linear ? static_cast<void*>(light.data()) : bytes.data();
-        if (!input_->read(row, end, channels, linear ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8, into)) {
-            return brokenImage(file_, *input_->image);
-        }
-        const std::size_t values = (end - row) * rowValues;
-        for (std::size_t i = 0; linear && i < values; ++i) bytes[i] = srgbByte(light[i]);
-        const std::size_t pixels = std::size_t{end - row} * width_;
-        for (std::size_t i = 0; i < pixels * 3; ++i) colours[i] = channels == 3 ? bytes[i] : bytes[i / 3];
-        if (Result<void> taken = take(row, std::span(colours).first(pixels * 3)); !taken) return taken;
     }
     return {};
 }
