@@ -4,249 +4,205 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "build/convex_cell.h"
+#include "build/highest_of_least.h"
 
 namespace fb {
 namespace {
 
-// After so many cuts a part is 256 times smaller, and what it adds at most is taken for what it adds: work is bounded.
+// After so many halvings a part is 256 times smaller, and what it adds at most is taken for what it adds: work is
+// bounded.
 constexpr int kDeepest = 16;
-// In the first cuts a side that leads over several creases counts for so many times its length.
-constexpr int kFirstCuts = 8;
-constexpr float kFarSide = 3.0f;
-constexpr float kTouching = 2.0f;  // grid units: a corner this close to `to` may belong to several of its faces
-constexpr float kEnough = 0.5f;    // of the bound: a face as close as this need not be the closest
+constexpr float kEnough = 0.5f;  // of the bound: a face as close as this need not be the closest
 constexpr auto kShare = static_cast<float>(1.0 + kFarthestRelative);
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// Over the faces under one triangle: from one end to the other, and in all. What is left then is halved.
+constexpr int kFarthestWalk = 48, kMostSteps = 400;
+constexpr double kSteep = 1e-3;   // a face so close to upright, seen along the normal, has nothing above it
+constexpr double kOnEdge = 0.25;  // grid units: beyond an edge by less is still over the face
 
-// A point of `from` and the closest one of `to`.
+// A point of `from`, and how far a close face of `to` lies.
 struct Probe {
     glm::vec3 point{0.0f};
-    std::uint32_t face = ~std::uint32_t{0};  // of `to`; none: not looked for yet
+    std::uint32_t face = 0;
     float distance = 0.0f;
-    glm::vec3 on{0.0f};  // the closest point
 };
 using Piece3 = std::array<Probe, 3>;
 
-glm::vec3 pointOn(const TriangleCorners& face, const glm::vec3& weights) {
-    return face[0] * weights.x + face[1] * weights.y + face[2] * weights.z;
-}
-
-// The edge that two triangles have in common; false where they have none.
-bool sharedEdge(const TriangleCorners& a, const TriangleCorners& b, std::array<glm::vec3, 2>& edge) {
-    std::size_t found = 0;
-    for (const glm::vec3& p : a) {
-        if (p != b[0] && p != b[1] && p != b[2]) continue;
-        if (found == 2) return true;
-        edge[found++] = p;
+std::array<glm::dvec3, 8> cornersOf(const Box3f& box) {
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        corners[i] = {(i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                      (i & 4) != 0 ? box.max.z : box.min.z};
     }
-    return found == 2;
-}
-
-// Where a straight connection p-q is bent to meet an edge: the points of both that are closest, or nearly so.
-struct Bend {
-    float at = 0.0f;  // along the connection
-    float by = 0.0f;  // distance
-};
-Bend bendTo(const glm::vec3& p, const glm::vec3& q, const std::array<glm::vec3, 2>& edge) {
-    const glm::vec3 u = q - p, v = edge[1] - edge[0], w = p - edge[0];
-    const float a = glm::dot(u, u), b = glm::dot(u, v), c = glm::dot(v, v), d = glm::dot(u, w), e = glm::dot(v, w);
-    const float det = a * c - b * b;
-    const float s = det > 0.0f ? glm::clamp((b * e - c * d) / det, 0.0f, 1.0f) : 0.5f;
-    const float t = c > 0.0f ? glm::clamp((b * s + e) / c, 0.0f, 1.0f) : 0.0f;
-    const float again = a > 0.0f ? glm::clamp((b * t - d) / a, 0.0f, 1.0f) : 0.0f;
-    return {again, glm::distance(p + u * again, edge[0] + v * t)};
+    return corners;
 }
 
 class Farthest {
   public:
-    Farthest(const TriangleTree& to, double atLeast)
-        : to_(to),
+    Farthest(const MeasuredSurface& from, const MeasuredSurface& to, double atLeast)
+        : from_(from),
+          to_(to),
           lower_(static_cast<float>(atLeast) / kShare),
           bound_(static_cast<float>(atLeast)) {}
 
-    void coverSurface(const MeasuredSurface& from) {
-        from_ = &from;
-        probes_.resize(from.points().size());
+    double measure() {
         probeAll();
         coverNode(0);
+        return static_cast<double>(bound_);
     }
-    [[nodiscard]] double bound() const { return static_cast<double>(bound_); }
 
   private:
+    static constexpr std::uint32_t kNone = MeasuredSurface::kNoTriangle;
     static constexpr auto kAny = [](std::uint32_t) { return true; };
 
     void reach(float distance) {
         lower_ = std::max(lower_, distance);
         bound_ = std::max(bound_, distance);
     }
-    [[nodiscard]] ClosestPoint startAt(std::uint32_t face, const glm::vec3& p) const {
-        return face < to_.triangles().size() ? to_.closestOn(face, p) : ClosestPoint{};
-    }
-    [[nodiscard]] Probe probeOn(const glm::vec3& p, const ClosestPoint& at) const {
-        return {p, at.triangle, std::sqrt(at.squaredDistance), pointOn(to_.triangles()[at.triangle], at.weights)};
-    }
     Probe probeAt(const glm::vec3& p, std::uint32_t near) {
-        const ClosestPoint at = to_.closest(p, startAt(near, p), -1.0f, kAny);
+        const ClosestPoint at = to_.tree().closest(p, to_.tree().closestOn(near, p), -1.0f, kAny);
         guess_ = at.triangle;
-        reach(std::sqrt(at.squaredDistance));
-        return probeOn(p, at);
+        const float distance = std::sqrt(at.squaredDistance);
+        reach(distance);
+        return {p, at.triangle, distance};
     }
     // Halfway; a face of the two will do where it is well within the bound.
     Probe probeBetween(const Probe& a, const Probe& b) {
         const glm::vec3 middle = 0.5f * (a.point + b.point);
-        ClosestPoint at = to_.closestOn(a.face, middle);
+        ClosestPoint at = to_.tree().closestOn(a.face, middle);
         if (b.face != a.face) {
-            const ClosestPoint other = to_.closestOn(b.face, middle);
+            const ClosestPoint other = to_.tree().closestOn(b.face, middle);
             if (other.squaredDistance < at.squaredDistance) at = other;
         }
         const float enough = kEnough * bound_;
         if (at.squaredDistance > enough * enough) return probeAt(middle, at.triangle);
-        return probeOn(middle, at);
-    }
-    const Probe& probeOf(std::uint32_t point) {
-        Probe& probe = probes_[point];
-        if (probe.face != ~std::uint32_t{0}) return probe;
-        const glm::vec3& p = from_->points()[point];
-        const ClosestPoint start = startAt(guess_, p);
-        const float enough = kEnough * bound_;
-        return probe = start.squaredDistance > enough * enough ? probeAt(p, guess_) : probeOn(p, start);
+        return {middle, at.triangle, std::sqrt(at.squaredDistance)};
     }
 
-    // Raises what is reached for certain before anything is refined: searches end at the first triangle not farther.
+    // Raises what is reached for certain before anything is refined: searches end at the first triangle not
+    // farther.
     void probeAll() {
-        for (const glm::vec3& p : from_->points()) {
-            const ClosestPoint start = startAt(guess_, p);
-            if (start.squaredDistance <= lower_ * lower_) continue;
-            const ClosestPoint near = to_.closest(p, start, lower_ * lower_, kAny);
-            guess_ = near.triangle;
-            reach(std::sqrt(near.squaredDistance));
+        near_.reserve(from_.points().size());
+        for (const glm::vec3& p : from_.points()) {
+            const ClosestPoint start = to_.tree().closestOn(guess_, p);
+            if (start.squaredDistance > lower_ * lower_) {
+                const ClosestPoint near = to_.tree().closest(p, start, lower_ * lower_, kAny);
+                guess_ = near.triangle;
+                reach(std::sqrt(near.squaredDistance));
+            }
+            near_.push_back(guess_);
         }
         bound_ = std::max(bound_, lower_ * kShare);
     }
 
-    [[nodiscard]] bool boxIsNear(const Box3f& box, std::uint32_t face) const {
-        for (std::size_t i = 0; i < 8; ++i) {
-            const glm::vec3 corner((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
-                                   (i & 4) != 0 ? box.max.z : box.min.z);
-            if (to_.closestOn(face, corner).squaredDistance > bound_ * bound_) return false;
-        }
-        return true;
+    // The distance to a face is convex: what holds for all corners holds for all between.
+    template <class Points>
+    [[nodiscard]] bool areNear(const Points& points, std::uint32_t face) const {
+        return std::ranges::all_of(points, [&](const glm::dvec3& p) {
+            return to_.tree().closestOn(face, p).squaredDistance <= bound_ * bound_;
+        });
     }
 
     void coverNode(std::uint32_t index) {
-        const TriangleTree& from = from_->tree();
+        const TriangleTree& from = from_.tree();
         const TriangleTree::Node& node = from.nodes()[index];
         if (node.count > 0) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) coverIndexed(from.order()[i]);
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+                coverTriangle(from.order()[i]);
             return;
         }
-        if (guess_ < to_.triangles().size() && boxIsNear(node.box, guess_)) return;
+        if (areNear(cornersOf(node.box), guess_)) return;
         coverNode(index + 1);
         coverNode(node.first);
     }
 
-    void coverIndexed(std::uint32_t triangle) {
-        const TriangleCorners& corners = from_->tree().triangles()[triangle];
-        if (guess_ < to_.triangles().size() && farthestCorner(corners, guess_) <= bound_) return;
-        const glm::uvec3& t = from_->triangles()[triangle];
-        cover({probeOf(t.x), probeOf(t.y), probeOf(t.z)}, 0);
+    void coverTriangle(std::uint32_t triangle) {
+        const TriangleCorners& corners = from_.tree().triangles()[triangle];
+        if (areNear(corners, guess_)) return;
+        guess_ = near_[from_.triangles()[triangle].x];
+        Cell cell;
+        for (const glm::vec3& p : corners) cell.add(p);
+        along_ = glm::cross(cell.corners[1] - cell.corners[0], cell.corners[2] - cell.corners[0]);
+        steps_ = 0;
+        walk(cell, guess_, kNone, 0);
     }
 
-    // The largest distance of the corners to the face, or infinity once one is beyond the bound.
-    [[nodiscard]] float farthestCorner(const TriangleCorners& corners, std::uint32_t face) const {
-        float worst = 0.0f;
-        for (const glm::vec3& p : corners) {
-            worst = std::max(worst, to_.closestOn(face, p).squaredDistance);
-            if (worst > bound_ * bound_) return kInfinity;
+    // Covers the part of the cell that lies over `face`, seen along the normal of the triangle that it is
+    // part of, and steps to the neighbours with the rest.
+    void walk(const Cell& cell, std::uint32_t face, std::uint32_t before, int depth) {
+        if (areNear(cell.points(), face)) return;
+        if (depth == kFarthestWalk || ++steps_ > kMostSteps) return coverFan(cell, face);
+        const TriangleCorners& corners = to_.tree().triangles()[face];
+        const std::array<glm::dvec3, 3> p = {corners[0], corners[1], corners[2]};
+        const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+        const double facing = glm::dot(along_, normal);
+        if (std::abs(facing) <= kSteep * std::sqrt(glm::dot(along_, along_) * glm::dot(normal, normal)))
+            return leap(cell, face, before, depth);
+        const glm::dvec3 side = facing < 0.0 ? -along_ : along_;
+        std::array<Cell, 3> insides;
+        const Cell* rest = &cell;
+        for (int k = 0; k < 3; ++k) {
+            const glm::dvec3 &a = p[static_cast<std::size_t>(k)],
+                             &b = p[static_cast<std::size_t>((k + 1) % 3)];
+            const Cuts cuts(*rest, a, glm::cross(side, b - a), kOnEdge);
+            if (cuts.isInside()) continue;
+            const std::uint32_t next = to_.neighbour(face, k);
+            const auto step = [&](const Cell& outside) {
+                if (next == kNone || next == before)
+                    leap(outside, face, before, depth);
+                else
+                    walk(outside, next, face, depth + 1);
+            };
+            if (cuts.isOutside()) return step(*rest);
+            Cell outside;
+            Cell& inside = insides[static_cast<std::size_t>(k)];
+            cuts.split(*rest, inside, outside);
+            step(outside);
+            rest = &inside;
         }
-        return std::sqrt(worst);
+        if (rest == &cell || !areNear(rest->points(), face)) leap(*rest, face, before, depth);
     }
 
-    // The creases between the faces of each two corners: [k] of corners k and k + 1.
-    struct Crease {
-        bool same = false, neighbours = false;
-        std::array<glm::vec3, 2> edge;
-    };
-    using Creases = std::array<Crease, 3>;
+    // To the face that is closest to the middle of the cell, where no neighbour leads on.
+    void leap(const Cell& cell, std::uint32_t face, std::uint32_t before, int depth) {
+        const Probe middle = probeAt(cell.centre(), face);
+        if (middle.face == face || middle.face == before) return coverFan(cell, face);
+        walk(cell, middle.face, kNone, depth + 1);
+    }
 
-    [[nodiscard]] Creases creasesOf(const Piece3& piece) const {
-        Creases creases;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = piece[k].face, b = piece[(k + 1) % 3].face;
-            creases[k].same = a == b;
-            creases[k].neighbours =
-                a != b && sharedEdge(to_.triangles()[a], to_.triangles()[b], creases[k].edge);
+    void coverFan(const Cell& cell, std::uint32_t face) {
+        const Probe apex = probeAt(cell.corners[0], face);
+        Probe last = probeAt(cell.corners[1], apex.face);
+        for (std::size_t i = 2; i < cell.count; ++i) {
+            const Probe next = probeAt(cell.corners[i], last.face);
+            cover({apex, last, next}, 0);
+            last = next;
         }
-        return creases;
     }
 
-    // The corners' closest points span a flat triangle, and no point of the piece is farther from it than the farthest
-    // corner. Where a side of it leads over the crease between two neighbouring faces, bending it to a point of that
-    // crease brings it into the faces and moves nothing by more than that. Two of three corners on one face: two sides
-    // are bent. Three faces, one of them between the others: the side past it is bent twice.
-    [[nodiscard]] float boundOf(const Piece3& piece, const Creases& creases) const {
-        const float worst = std::max({piece[0].distance, piece[1].distance, piece[2].distance});
-        const int same = int{creases[0].same} + int{creases[1].same} + int{creases[2].same};
-        if (same == 3) return worst;
-        float bend = kInfinity;
-        if (same == 1) {
-            const std::size_t k = creases[0].same ? 0 : (creases[1].same ? 1 : 2);  // corners k and k + 1 agree
-            const Crease& crease = creases[(k + 1) % 3];
-            const glm::vec3& alone = piece[(k + 2) % 3].on;
-            if (!crease.neighbours) return kInfinity;
-            bend = std::max(bendTo(piece[k].on, alone, crease.edge).by,
-                            bendTo(piece[(k + 1) % 3].on, alone, crease.edge).by);
-        } else {
-            for (std::size_t middle = 0; middle < 3; ++middle) {
-                const Crease &in = creases[(middle + 2) % 3], &out = creases[middle];
-                if (!in.neighbours || !out.neighbours) continue;
-                const glm::vec3 &a = piece[(middle + 2) % 3].on, &b = piece[middle].on, &c = piece[(middle + 1) % 3].on;
-                const Bend first = bendTo(a, c, in.edge), second = bendTo(a, c, out.edge);
-                if (first.at > second.at) continue;
-                bend = std::min(bend, std::max({first.by, second.by, bendTo(a, b, in.edge).by,
-                                                bendTo(b, c, out.edge).by}));
+    // The distance to each face is convex: over the piece it is nowhere above the plane through its values at
+    // the corners.
+    [[nodiscard]] float boundBetween(const Piece3& piece) const {
+        std::array<glm::vec3, 3> d;  // by face: at the corners
+        for (std::size_t f = 0; f < 3; ++f) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                d[f][static_cast<int>(k)] =
+                    f == k ? piece[k].distance
+                           : std::sqrt(to_.tree().closestOn(piece[f].face, piece[k].point).squaredDistance);
             }
         }
-        return worst + bend;
-    }
-
-    // A corner that lies on a corner or edge of `to` belongs to several faces; to that of another corner, perhaps.
-    [[nodiscard]] float boundWithOtherFaces(const Piece3& piece) const {
-        float least = kInfinity;
-        for (std::size_t k = 0; k < 3 && least > bound_; ++k) {
-            if (piece[k].face != piece[(k + 1) % 3].face)
-                least = std::min(least, boundOver(piece, piece[k].face, piece[(k + 1) % 3].face));
-        }
-        return least;
-    }
-
-    [[nodiscard]] float boundOver(const Piece3& piece, std::uint32_t a, std::uint32_t b) const {
-        Piece3 moved = piece;
-        for (Probe& probe : moved) {
-            const ClosestPoint atA = to_.closestOn(a, probe.point), atB = to_.closestOn(b, probe.point);
-            const ClosestPoint& at = atA.squaredDistance <= atB.squaredDistance ? atA : atB;
-            if (at.squaredDistance > bound_ * bound_) return kInfinity;
-            probe = probeOn(probe.point, at);
-        }
-        return boundOf(moved, creasesOf(moved));
+        return highestOfLeast(d);
     }
 
     void cover(const Piece3& piece, int depth) {
-        const Creases creases = creasesOf(piece);
-        float least = boundOf(piece, creases);
-        if (least <= bound_) return;
-        const float nearest = std::min({piece[0].distance, piece[1].distance, piece[2].distance});
-        if (nearest <= kTouching) least = std::min(least, boundWithOtherFaces(piece));
+        float least = boundBetween(piece);
         if (least <= bound_) return;
         const glm::vec3 centre = (piece[0].point + piece[1].point + piece[2].point) * (1.0f / 3.0f);
-        // Cut the longest side; at first rather one that leads over more than one crease.
         float farthest = 0.0f, radius = 0.0f, longestSide = -1.0f;
         std::size_t longest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const float side = glm::distance(piece[k].point, piece[(k + 1) % 3].point);
-            const bool far = depth < kFirstCuts && !creases[k].same && !creases[k].neighbours;
-            const float weight = far ? kFarSide * side : side;
-            if (weight > longestSide) longestSide = weight, longest = k;
+            if (side > longestSide) longestSide = side, longest = k;
             farthest = std::max(farthest, piece[k].distance);
             radius = std::max(radius, glm::distance(piece[k].point, centre));
         }
@@ -262,31 +218,20 @@ class Farthest {
         cover({middle, to, apex}, depth + 1);
     }
 
-    const TriangleTree& to_;
-    const MeasuredSurface* from_ = nullptr;
-    std::vector<Probe> probes_;  // by point of `from`
-    float lower_, bound_;        // what is reached for certain; what is not exceeded so far
-    std::uint32_t guess_ = ~std::uint32_t{0};  // a face close to what was looked at last
+    const MeasuredSurface &from_, &to_;
+    std::vector<std::uint32_t> near_;  // by point of `from_`: a face close to it
+    float lower_, bound_;              // what is reached for certain; what is not exceeded so far
+    std::uint32_t guess_ = 0;          // a face close to what was looked at last
+    glm::dvec3 along_{0.0};            // the normal of the triangle that is being covered
+    int steps_ = 0;                    // in covering it
 };
-
-std::vector<TriangleCorners> cornersOf(const std::vector<glm::vec3>& points, const std::vector<glm::uvec3>& triangles) {
-    std::vector<TriangleCorners> corners;
-    corners.reserve(triangles.size());
-    for (const glm::uvec3& t : triangles) corners.push_back({points[t.x], points[t.y], points[t.z]});
-    return corners;
-}
 
 }  // namespace
 
-MeasuredSurface::MeasuredSurface(std::vector<glm::vec3> points, std::vector<glm::uvec3> triangles)
-    : points_(std::move(points)), triangles_(std::move(triangles)), tree_(cornersOf(points_, triangles_)) {}
-
-double farthestFrom(const MeasuredSurface& from, const TriangleTree& to, double atLeast) {
+double farthestFrom(const MeasuredSurface& from, const MeasuredSurface& to, double atLeast) {
     FB_CHECK(!from.triangles().empty());
     FB_CHECK(!to.triangles().empty());
-    Farthest farthest(to, atLeast);
-    farthest.coverSurface(from);
-    return farthest.bound();
+    return Farthest(from, to, atLeast).measure();
 }
 
 }  // namespace fb

@@ -27,10 +27,10 @@ struct Range {
     std::size_t begin = 0, end = 0;
 };
 
-// Of one level: by piece, its surface, the pieces of the finest inner level that it contains, and how far it lies from
-// the original.
+// Of one level: by piece, what is drawn, the pieces of the finest inner level that it contains, and how far
+// it lies from the original.
 struct Measured {
-    std::vector<MeasuredSurface> surfaces;
+    std::vector<std::vector<glm::uvec3>> drawn;
     std::vector<Range> originals;
     std::vector<double> backward;
 };
@@ -65,10 +65,10 @@ std::vector<std::vector<double>> measureErrors(const BlockMesh& mesh, const std:
             l == finest ? std::vector<Range>{} : childrenOf(levels[l + 1].original, pieces);
         Measured here;
         for (std::size_t i = 0; i < pieces; ++i) {
-            here.surfaces.push_back(surfaceOf(mesh, levels[l].drawn(mesh, i), numbering));
-            const MeasuredSurface& surface = here.surfaces.back();
+            here.drawn.push_back(levels[l].drawn(mesh, i));
+            const MeasuredSurface surface = surfaceOf(mesh, here.drawn.back(), numbering);
             double below = 0.0, behind = 0.0;
-            std::vector<TriangleCorners> drawnBelow;  // by the children
+            std::vector<glm::uvec3> drawnBelow;  // by the children
             if (l == finest) {
                 here.originals.push_back({i, i + 1});
             } else {
@@ -76,20 +76,21 @@ std::vector<std::vector<double>> measureErrors(const BlockMesh& mesh, const std:
                 here.originals.push_back(
                     {finer.originals[range.begin].begin, finer.originals[range.end - 1].end});
                 for (std::size_t c = range.begin; c < range.end; ++c) {
-                    const std::span<const TriangleCorners> part = finer.surfaces[c].tree().triangles();
-                    drawnBelow.insert(drawnBelow.end(), part.begin(), part.end());
+                    drawnBelow.insert(drawnBelow.end(), finer.drawn[c].begin(), finer.drawn[c].end());
                     behind = std::max(behind, finer.backward[c]);
                     below = std::max(below, errors[l + 1][c]);
                 }
             }
             double forward = 0.0;
             for (std::size_t o = here.originals[i].begin; o < here.originals[i].end; ++o)
-                forward = farthestFrom(originals[o], surface.tree(), forward);
+                forward = farthestFrom(originals[o], surface, forward);
             // Only what exceeds `forward` matters.
             const double left = std::max(0.0, forward - behind);
             const double backward =
-                behind + (l == finest ? farthestFrom(surface, originals[i].tree(), left)
-                                      : farthestFrom(surface, TriangleTree(std::move(drawnBelow)), left));
+                behind +
+                (l == finest
+                     ? farthestFrom(surface, originals[i], left)
+                     : farthestFrom(surface, surfaceOf(mesh, std::move(drawnBelow), numbering), left));
             here.backward.push_back(backward);
             // Rounding of cuts finer than `finest` and of the distances themselves.
             errors[l][i] = std::max({forward, backward, below}) + kFarthestUnits;

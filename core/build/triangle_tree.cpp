@@ -21,9 +21,9 @@ double share(double part, double whole) {
 
 }  // namespace
 
-ClosestPoint closestOnTriangle(const glm::vec3& p, const TriangleCorners& corners) {
+ClosestPoint closestOnTriangle(const glm::dvec3& p, const TriangleCorners& corners) {
     const glm::dvec3 a(corners[0]), ab = glm::dvec3(corners[1]) - a, ac = glm::dvec3(corners[2]) - a;
-    const glm::dvec3 ap = glm::dvec3(p) - a;
+    const glm::dvec3 ap = p - a;
     const auto result = [&](double v, double w) { return pointWith(-ap, ab, ac, v, w); };
     const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
     if (d1 <= 0.0 && d2 <= 0.0) return result(0.0, 0.0);

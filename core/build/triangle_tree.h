@@ -24,7 +24,7 @@ struct ClosestPoint {
 };
 
 // The point of the triangle closest to `p` (Ericson 2005, Real-Time Collision Detection, 5.1.5).
-[[nodiscard]] ClosestPoint closestOnTriangle(const glm::vec3& p, const TriangleCorners& corners);
+[[nodiscard]] ClosestPoint closestOnTriangle(const glm::dvec3& p, const TriangleCorners& corners);
 
 class TriangleTree {
   public:
@@ -44,7 +44,7 @@ class TriangleTree {
     template <class Accepts, class Visit>
     void visitNear(const glm::vec3& p, float distance, Accepts&& accepts, Visit&& visit) const;
     // Distance of `p` to triangle `index`, as a start for closest().
-    [[nodiscard]] ClosestPoint closestOn(std::uint32_t index, const glm::vec3& p) const {
+    [[nodiscard]] ClosestPoint closestOn(std::uint32_t index, const glm::dvec3& p) const {
         ClosestPoint result = closestOnTriangle(p, triangles_[index]);
         result.triangle = index;
         return result;

@@ -12,15 +12,30 @@
 namespace fb {
 namespace {
 
-// The largest distance of many random points of `from`.
+glm::vec2 insideTriangle(glm::vec2 uv) {
+    uv = glm::clamp(uv, glm::vec2(0.0f), glm::vec2(1.0f));
+    return uv.x + uv.y > 1.0f ? glm::vec2(1.0f) - uv : uv;
+}
+
+// The largest distance of the corners and of many random points of `from`, climbing from the best of each
+// triangle.
 double sampled(const MeasuredSurface& from, const TriangleTree& to, Random& random, int pointsEach) {
+    const auto uniform2 = [&] { return glm::vec2(random.uniform(), random.uniform()); };
     float worst = 0.0f;
     for (const TriangleCorners& t : from.tree().triangles()) {
-        for (int i = 0; i < pointsEach; ++i) {
-            auto u = static_cast<float>(random.uniform()), v = static_cast<float>(random.uniform());
-            if (u + v > 1.0f) u = 1.0f - u, v = 1.0f - v;
-            worst = std::max(worst, to.closest(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0])).squaredDistance);
-        }
+        glm::vec2 best(0.0f);
+        float bestDistance = -1.0f;
+        const auto look = [&](const glm::vec2& uv) {
+            const float distance =
+                to.closest(t[0] + uv.x * (t[1] - t[0]) + uv.y * (t[2] - t[0])).squaredDistance;
+            if (distance > bestDistance) bestDistance = distance, best = uv;
+        };
+        for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)}) look(corner);
+        for (int i = 0; i < pointsEach; ++i) look(insideTriangle(uniform2()));
+        float radius = 0.25f;
+        for (int i = 0; i < pointsEach; ++i, radius *= 0.95f)
+            look(insideTriangle(best + radius * (2.0f * uniform2() - 1.0f)));
+        worst = std::max(worst, bestDistance);
     }
     return std::sqrt(static_cast<double>(worst));
 }
@@ -48,7 +63,8 @@ glm::vec3 randomPoint(Random& random, const glm::vec3& size) {
 MeasuredSurface soup(Random& random, std::size_t count, const glm::vec3& size) {
     std::vector<TriangleCorners> triangles;
     for (std::size_t i = 0; i < count; ++i)
-        triangles.push_back({randomPoint(random, size), randomPoint(random, size), randomPoint(random, size)});
+        triangles.push_back(
+            {randomPoint(random, size), randomPoint(random, size), randomPoint(random, size)});
     return surfaceOf(triangles);
 }
 
@@ -70,47 +86,101 @@ MeasuredSurface terrain(int side, float width, const std::function<float(float, 
 }
 
 TEST(FarthestFrom, IsExactButForItsMarginWhereTheFarthestPointIsACorner) {
-    const MeasuredSurface plane = surfaceOf({{glm::vec3(0, 0, 0), glm::vec3(900, 0, 0), glm::vec3(0, 900, 0)}});
-    const MeasuredSurface raised = surfaceOf({{glm::vec3(100, 100, 10), glm::vec3(200, 100, 30), glm::vec3(100, 200, 20)}});
-    EXPECT_NEAR(farthestFrom(raised, plane.tree(), 0.0), 33.0, 1e-2);
-    EXPECT_NEAR(farthestFrom(raised, plane.tree(), 50.0), 50.0, 1e-2);
+    const MeasuredSurface plane =
+        surfaceOf({{glm::vec3(0, 0, 0), glm::vec3(900, 0, 0), glm::vec3(0, 900, 0)}});
+    const MeasuredSurface raised =
+        surfaceOf({{glm::vec3(100, 100, 10), glm::vec3(200, 100, 30), glm::vec3(100, 200, 20)}});
+    EXPECT_NEAR(farthestFrom(raised, plane, 0.0), 30.0 * (1.0 + kFarthestRelative), 1e-2);
+    EXPECT_NEAR(farthestFrom(raised, plane, 50.0), 50.0, 1e-2);
 }
 
 // A ridge between two corners that lie on the plane: no corner of `from` is far, its middle is.
 TEST(FarthestFrom, FindsWhatLiesBetweenCorners) {
-    const MeasuredSurface flat = surfaceOf({{glm::vec3(0, 0, 0), glm::vec3(800, 0, 0), glm::vec3(400, 800, 0)}});
-    const MeasuredSurface far = surfaceOf({{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)},
-                            {glm::vec3(800, 0, 0), glm::vec3(799, 0, 0), glm::vec3(799, 1, 0)},
-                            {glm::vec3(400, 800, 0), glm::vec3(400, 799, 0), glm::vec3(401, 799, 0)}});
+    const MeasuredSurface flat =
+        surfaceOf({{glm::vec3(0, 0, 0), glm::vec3(800, 0, 0), glm::vec3(400, 800, 0)}});
+    const MeasuredSurface far =
+        surfaceOf({{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)},
+                   {glm::vec3(800, 0, 0), glm::vec3(799, 0, 0), glm::vec3(799, 1, 0)},
+                   {glm::vec3(400, 800, 0), glm::vec3(400, 799, 0), glm::vec3(401, 799, 0)}});
     Random random(1);
     const double truth = sampled(flat, far.tree(), random, 20000);
     EXPECT_GT(truth, 400.0);
-    EXPECT_GE(farthestFrom(flat, far.tree(), 0.0), truth);
-    EXPECT_LE(farthestFrom(flat, far.tree(), 0.0), truth * 1.12);
+    EXPECT_GE(farthestFrom(flat, far, 0.0), truth);
+    EXPECT_LE(farthestFrom(flat, far, 0.0), truth * 1.12);
 }
 
 TEST(FarthestFrom, TakesLittleWorkWhereSurfacesCoincide) {
     const MeasuredSurface fine = terrain(64, 4096.0f, [](float, float) { return 7.0f; });
     const MeasuredSurface coarse = terrain(3, 4096.0f, [](float, float) { return 7.0f; });
-    EXPECT_LE(farthestFrom(fine, coarse.tree(), 0.0), kFarthestUnits);
-    EXPECT_LE(farthestFrom(coarse, fine.tree(), 0.0), kFarthestUnits);
+    EXPECT_LE(farthestFrom(fine, coarse, 0.0), kFarthestUnits);
+    EXPECT_LE(farthestFrom(coarse, fine, 0.0), kFarthestUnits);
 }
 
 RC_GTEST_PROP(FarthestFrom, IsNotExceededOnRandomTriangles, (std::uint64_t seed)) {
     Random random(seed);
     const glm::vec3 size(1e6f, random.uniform() < 0.5 ? 1e6f : 1e3f, 1e6f);
-    const MeasuredSurface a = soup(random, 1 + random.index(20), size), b = soup(random, 1 + random.index(60), size);
-    RC_ASSERT(farthestFrom(a, b.tree(), 0.0) + kFarthestUnits >= sampled(a, b.tree(), random, 300));
+    const MeasuredSurface a = soup(random, 1 + random.index(20), size),
+                          b = soup(random, 1 + random.index(60), size);
+    RC_ASSERT(farthestFrom(a, b, 0.0) + kFarthestUnits >= sampled(a, b.tree(), random, 300));
+}
+
+// A roof over a floor, a wall between them: below the roof the nearest face is not the one that the walk
+// comes to.
+TEST(FarthestFrom, FindsTheNearestOfSeveralLayers) {
+    const auto square = [](float x0, float x1, float z) {
+        return std::vector<TriangleCorners>{
+            {glm::vec3(x0, 0, z), glm::vec3(x1, 0, z), glm::vec3(x1, 1000, z)},
+            {glm::vec3(x0, 0, z), glm::vec3(x1, 1000, z), glm::vec3(x0, 1000, z)}};
+    };
+    std::vector<TriangleCorners> layers = square(0, 1000, 0);
+    const std::vector<TriangleCorners> roof = square(400, 1000, 300);
+    layers.insert(layers.end(), roof.begin(), roof.end());
+    layers.push_back({glm::vec3(400, 0, 0), glm::vec3(400, 1000, 0), glm::vec3(400, 1000, 300)});
+    layers.push_back({glm::vec3(400, 0, 0), glm::vec3(400, 1000, 300), glm::vec3(400, 0, 300)});
+    // At height 200 the floor is 200 below, the roof 100 above, the wall at x = 400.
+    EXPECT_NEAR(farthestFrom(surfaceOf(square(500, 900, 200)), surfaceOf(layers), 0.0), 100.0, 6.1);
+    EXPECT_NEAR(farthestFrom(surfaceOf(square(0, 1000, 200)), surfaceOf(layers), 0.0), 200.0, 8.1);
+    EXPECT_NEAR(farthestFrom(surfaceOf(square(250, 900, 200)), surfaceOf(layers), 0.0), 150.0, 7.1);
+}
+
+TEST(FarthestFrom, LooksPastATriangleFoldedBack) {
+    const MeasuredSurface folded =
+        surfaceOf({{glm::vec3(0, 0, 0), glm::vec3(1000, 0, 0), glm::vec3(0, 1000, 0)},
+                   {glm::vec3(1000, 0, 0), glm::vec3(0, 0, 0), glm::vec3(500, 900, 10)}});
+    const MeasuredSurface flat =
+        surfaceOf({{glm::vec3(0, 0, 4), glm::vec3(1000, 0, 4), glm::vec3(500, 500, 4)}});
+    EXPECT_LE(farthestFrom(flat, folded, 0.0), 4.0 * (1.0 + kFarthestRelative) + 1e-3);
+}
+
+TEST(FarthestFrom, IsCloseToWhatIsReachedOnHills) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        Random random(seed);
+        const auto rough = static_cast<float>(random.uniform(1e3, 1e4)),
+                   wave = static_cast<float>(random.uniform(1e-5, 2e-4));
+        const auto height = [&](float x, float y) {
+            return rough * std::sin(x * wave) * std::cos(y * wave * 1.3f);
+        };
+        const MeasuredSurface fine = terrain(12, 1e5f, height);
+        const MeasuredSurface coarse = terrain(static_cast<int>(1 + random.index(8)), 1e5f, height);
+        const double most = 1.0 + kFarthestRelative + 0.01;  // what samples miss
+        EXPECT_LE(farthestFrom(fine, coarse, 0.0),
+                  most * sampled(fine, coarse.tree(), random, 200) + kFarthestUnits);
+        EXPECT_LE(farthestFrom(coarse, fine, 0.0),
+                  most * sampled(coarse, fine.tree(), random, 400) + kFarthestUnits);
+    }
 }
 
 RC_GTEST_PROP(FarthestFrom, IsNotExceededOnHills, (std::uint64_t seed)) {
     Random random(seed);
-    const auto rough = static_cast<float>(random.uniform(1.0, 3e4)), wave = static_cast<float>(random.uniform(1e-5, 1e-3));
-    const auto height = [&](float x, float y) { return rough * std::sin(x * wave) * std::cos(y * wave * 1.3f); };
-    const MeasuredSurface fine = terrain(24, 1e5f, height);
-    const MeasuredSurface coarse = terrain(static_cast<int>(2 + random.index(20)), 1e5f, height);
-    RC_ASSERT(farthestFrom(fine, coarse.tree(), 0.0) + kFarthestUnits >= sampled(fine, coarse.tree(), random, 20));
-    RC_ASSERT(farthestFrom(coarse, fine.tree(), 0.0) + kFarthestUnits >= sampled(coarse, fine.tree(), random, 100));
+    const auto rough = static_cast<float>(random.uniform(1.0, 3e4)),
+               wave = static_cast<float>(random.uniform(1e-5, 1e-3));
+    const auto height = [&](float x, float y) {
+        return rough * std::sin(x * wave) * std::cos(y * wave * 1.3f);
+    };
+    const MeasuredSurface fine = terrain(12, 1e5f, height);
+    const MeasuredSurface coarse = terrain(static_cast<int>(2 + random.index(9)), 1e5f, height);
+    RC_ASSERT(farthestFrom(fine, coarse, 0.0) + kFarthestUnits >= sampled(fine, coarse.tree(), random, 15));
+    RC_ASSERT(farthestFrom(coarse, fine, 0.0) + kFarthestUnits >= sampled(coarse, fine.tree(), random, 60));
 }
 
 }  // namespace

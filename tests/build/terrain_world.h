@@ -56,7 +56,7 @@ class HandMadeTerrain final : public TerrainSource {
     std::vector<float> heights_;
 };
 
-// Heights in quarters of a metre with holes, and cliffs where `steep`.
+// Heights in quarters of a metre with holes, but for the first cell, and cliffs where `steep`.
 inline HandMadeTerrain randomTerrain(std::uint32_t columns, std::uint32_t rows, std::uint64_t seed,
                                      double holeShare, bool steep = false) {
     Random random(seed);
@@ -72,7 +72,7 @@ inline HandMadeTerrain randomTerrain(std::uint32_t columns, std::uint32_t rows, 
         const std::uint64_t c = random.index(columns), r = random.index(rows), size = 1 + random.index(6);
         for (std::uint64_t y = r; y < std::min<std::uint64_t>(rows, r + size); ++y) {
             for (std::uint64_t x = c; x < std::min<std::uint64_t>(columns, c + size); ++x)
-                heights[y * columns + x] = kHole;
+                if (x > 1 || y > 1) heights[y * columns + x] = kHole;
         }
     }
     return HandMadeTerrain(columns, rows, std::move(heights));
