@@ -1,14 +1,13 @@
-// `frontbench build` and `frontbench city`: a source becomes a scene folder, in a guarded child process.
+// `frontbench build` and `frontbench city`: options become a build job.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <tuple>
 
+#include "app/build_job.h"
 #include "app/commands.h"
-#include "app/guarded_child.h"
 #include "app/option_text.h"
 #include "app/progress_display.h"
-#include "build/build_scene.h"
 #include "build/hash_block.h"
 #include "import/city.h"
 #include "import/import_files.h"
@@ -82,49 +81,24 @@ Result<void> checkInputs(const BuildCommand& command) {
     return {};
 }
 
-std::string counted(std::uint64_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
-void tell(const SourceInfo& info, const BuildReport& report, const std::filesystem::path& folder) {
-    for (const std::string& line : info.report.lines()) std::fprintf(stderr, "note: %s\n", line.c_str());
-    for (const std::string& line : report.warnings) std::fprintf(stderr, "note: %s\n", line.c_str());
-    std::string line = folder.string() + ": " + counted(report.sourceTriangles, "triangle") + " in " +
-                       counted(report.blocks, "block") + " became " + counted(report.nodes, "node");
-    char seconds[32];
-    std::snprintf(seconds, sizeof seconds, " in %.1f s", report.seconds);
-    line += seconds;
-    if (report.reusedBlocks > 0) line += ", " + counted(report.reusedBlocks, "block") + " taken over";
-    if (report.stuckNodes > 0) line += "; " + counted(report.stuckNodes, "node") + " could not be simplified enough";
-    std::fprintf(stderr, "%s\n", line.c_str());
-}
-
-void tellPhases(const BuildPhases& phases) {
-    const std::pair<const char*, double> all[] = {
-        {"load", phases.load},     {"textures", phases.textures}, {"simplify", phases.simplify},
-        {"errors", phases.errors}, {"skirts", phases.skirts},     {"dress", phases.dress},
-        {"atlas", phases.atlas},   {"encode", phases.encode},     {"write", phases.write}};
-    std::string line = "thread seconds:";
-    for (const auto& [name, seconds] : all) {
-        char text[48];
-        std::snprintf(text, sizeof text, " %s %.2f", name, seconds);
-        line += text;
-    }
-    std::fprintf(stderr, "%s\n", line.c_str());
-}
-
 Result<void> checkOutput(const std::filesystem::path& output) {
     return output.empty() ? usageFailure("--output", "must name a folder") : Result<void>();
 }
 
-Result<void> buildFrom(const BlockSource& source, const BuildSettings& settings, const std::filesystem::path& output,
-                       ProgressStyle style, bool phases) {
-    Result<BuildReport> report = buildScene(source, settings, output, showProgress(style));
-    endProgress(style);
-    if (!report) return passOn(report);
-    tell(source.info(), *report, output);
-    if (phases) tellPhases(report->phases);
-    return {};
+// Threads and bytes that a build may take.
+Result<BuildResources> buildResources(const std::string& memoryLimit, std::uint64_t threads) {
+    BuildResources resources;
+    constexpr std::uint64_t kMostThreads = 4096;
+    if (threads > kMostThreads) return usageFailure("--threads " + std::to_string(threads), "is more than 4096");
+    resources.threads = static_cast<std::uint32_t>(threads);
+    if (memoryLimit.empty()) return resources;
+    const Result<std::uint64_t> bytes = parseCount(memoryLimit);
+    if (!bytes) return usageFailure("--memory-limit " + memoryLimit, bytes.error().reason, "as in 800M or 4G");
+    if (*bytes < kLeastMemoryLimitBytes) {
+        return usageFailure("--memory-limit " + memoryLimit, "is too little to build in", "at least 256M");
+    }
+    resources.memoryLimitBytes = *bytes;
+    return resources;
 }
 
 Result<CityOptions> cityOptions(const CityCommand& command) {
@@ -155,16 +129,18 @@ Result<void> runBuild(const BuildCommand& command) {
     if (Result<void> sound = checkInputs(command); !sound) return sound;
     Result<TerrainOptions> terrain = terrainOptions(command, *options);
     if (!terrain) return passOn(terrain);
+    Result<BuildResources> resources = buildResources(command.memoryLimit, command.threads);
+    if (!resources) return passOn(resources);
     const std::size_t files = command.inputs.size() + (command.terrain.empty() ? 0 : 1);
     std::string what = (command.inputs.empty() ? command.terrain : command.inputs.front()).string();
     if (files > 1) what += " and " + std::to_string(files - 1) + " more";
-    return runGuarded(what, [&]() -> Result<void> {
+    const auto openSource = [&] {
         Result<std::unique_ptr<BlockSource>> source;
         if (!command.inputs.empty()) source = importFiles(command.inputs, *options, showProgress(command.progress));
         if (source && !command.terrain.empty()) source = addTerrain(std::move(*source), *terrain);
-        if (!source) return passOn(source);
-        return buildFrom(**source, *settings, command.output, command.progress, command.phases);
-    });
+        return source;
+    };
+    return runJob({what, openSource, *settings, *resources, command.output, command.progress, command.phases});
 }
 
 Result<void> runCity(const CityCommand& command) {
@@ -172,12 +148,11 @@ Result<void> runCity(const CityCommand& command) {
     if (!settings) return passOn(settings);
     Result<CityOptions> options = cityOptions(command);
     if (!options) return passOn(options);
+    Result<BuildResources> resources = buildResources(command.memoryLimit, command.threads);
+    if (!resources) return passOn(resources);
     if (Result<void> named = checkOutput(command.output); !named) return named;
-    return runGuarded("city", [&]() -> Result<void> {
-        auto source = makeCity(*options);
-        if (!source) return passOn(source);
-        return buildFrom(**source, *settings, command.output, command.progress, command.phases);
-    });
+    const auto openSource = [&] { return makeCity(*options); };
+    return runJob({"city", openSource, *settings, *resources, command.output, command.progress, command.phases});
 }
 
 std::filesystem::path builtInCityFolder() {

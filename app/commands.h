@@ -24,6 +24,8 @@ struct BuildCommand {
     std::filesystem::path terrain, drape;         // a height map, alone or below the meshes, and a picture on it
     std::string cellSize, heightScale, noData;    // numbers; empty: as the file says
     std::vector<std::string> sets;  // --set build.k=v
+    std::string memoryLimit;        // bytes with K, M or G; empty: none
+    std::uint64_t threads = 0;      // 0: as many as there are cores
     ProgressStyle progress = ProgressStyle::automatic;
     bool phases = false;
 };
@@ -34,6 +36,8 @@ struct CityCommand {
     std::string blocks, triangles, texels, seed;  // numbers with K, M or G; empty: the default
     bool terrain = false;                         // on hills
     std::vector<std::string> sets;
+    std::string memoryLimit;
+    std::uint64_t threads = 0;
     ProgressStyle progress = ProgressStyle::automatic;
     bool phases = false;
 };

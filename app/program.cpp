@@ -30,8 +30,14 @@ const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressS
                                                               {"lines", ProgressStyle::lines},
                                                               {"none", ProgressStyle::none}};
 
-void addPhases(CLI::App* command, bool& phases) {
-    command->add_flag("--phases", phases, "Tell at the end where the time went");
+// What `build` and `city` have in common.
+template <class Command>
+void addBuilding(CLI::App* command, Command& c) {
+    command->add_option("-o,--output", c.output, "The scene's folder, NAME.fbscene")->required();
+    command->add_option("--set", c.sets, "Set a knob: build.NAME=VALUE");
+    command->add_option("--memory-limit", c.memoryLimit, "Memory for blocks and textures while building, as in 800M or 4G");
+    command->add_option("--threads", c.threads, "Threads that build; 0 or left out: one a core")->check(kNotNegative);
+    command->add_flag("--phases", c.phases, "Tell at the end where the time went");
 }
 
 void addProgress(CLI::App* command, ProgressStyle& style) {
@@ -43,7 +49,6 @@ void addBuild(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("build", "Build a scene from meshes (OBJ, PLY, STL, OFF, glTF, GLB), a height map, or both");
     BuildCommand& b = line.build;
     command->add_option("INPUT", b.inputs, "Mesh files; several become several blocks");
-    command->add_option("-o,--output", b.output, "The scene's folder, NAME.fbscene")->required();
     command->add_option("--up", b.up, "Axis that points up: auto, y, z");
     command->add_option("--split", b.split, "How a mesh becomes blocks: auto, none, grid, groups");
     command->add_option("--block-triangles", b.blockTriangles, "Triangles that a block of the grid should have")->check(kNotNegative);
@@ -54,24 +59,21 @@ void addBuild(CLI::App& program, CommandLine& line) {
     command->add_option("--height-scale", b.heightScale, "Metres a unit of the height map");
     command->add_option("--no-data", b.noData, "Value that means no height, instead of what a GeoTIFF says");
     command->add_option("--name", b.name, "The scene's name");
-    command->add_option("--set", b.sets, "Set a knob: build.NAME=VALUE");
+    addBuilding(command, b);
     addProgress(command, b.progress);
-    addPhases(command, b.phases);
     command->callback([&line] { line.run = [&line] { return runBuild(line.build); }; });
 }
 
 void addCity(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("city", "Make a procedural city and build it");
     CityCommand& c = line.city;
-    command->add_option("-o,--output", c.output, "The scene's folder, NAME.fbscene")->required();
     command->add_option("--blocks", c.blocks, "Number of blocks");
     command->add_option("--triangles", c.triangles, "Triangles of the whole city, as in 480K or 8.95M");
     command->add_option("--texels", c.texels, "Texels of the whole city, as in 24M");
     command->add_option("--seed", c.seed, "Another seed makes another city");
     command->add_flag("--terrain", c.terrain, "Put the city on hills, with the country around it");
-    command->add_option("--set", c.sets, "Set a knob: build.NAME=VALUE");
+    addBuilding(command, c);
     addProgress(command, c.progress);
-    addPhases(command, c.phases);
     command->callback([&line] { line.run = [&line] { return runCity(line.city); }; });
 }
 

@@ -4,7 +4,7 @@
 fb_packages="build-essential cmake ninja-build ccache pkg-config git
  libglfw3-dev libglm-dev libimgui-dev libstb-dev libopenimageio-dev libopenmesh-dev libepoxy-dev libegl-dev libgl-dev
  libmeshoptimizer-dev libtinyobjloader-dev libtinygltf-dev libtbb-dev libtomlplusplus-dev nlohmann-json3-dev
- libcli11-dev libxxhash-dev libexpected-dev libgl1-mesa-dri libegl-mesa0 libegl1 fonts-dejavu-core"
+ libopenmpi-dev openmpi-bin libcli11-dev libxxhash-dev libexpected-dev libgl1-mesa-dri libegl-mesa0 libegl1 fonts-dejavu-core"
 fb_test_packages="libgtest-dev libbenchmark-dev librapidcheck-dev xvfb xdotool xauth strace"
 
 fb_install() {

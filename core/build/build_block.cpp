@@ -33,6 +33,7 @@ class BlockBuilder {
         root.triangles = std::move(quantised.triangles);
         if (root.triangles.empty()) {
             warn("block " + source_.name + " has no triangles and is left out");
+            result_.report.add(countsOf(result_.block));
             return std::move(result_);
         }
         phases.textures += secondsSinceLap(phaseStart_);
@@ -52,9 +53,8 @@ class BlockBuilder {
     void warn(std::string line) { result_.report.warnings.push_back(std::move(line)); }
 
     void reportSource(const QuantisedBlock& quantised) {
-        result_.report.blocks = 1;
-        result_.report.sourceTriangles = source_.mesh.triangles.size();
-        result_.report.sourceAreaSquareMetres = quantised.sourceAreaSquareMetres;
+        result_.block.sourceTriangles = source_.mesh.triangles.size();
+        result_.block.sourceAreaSquareMetres = quantised.sourceAreaSquareMetres;
         for (std::string& line : textures_.warnings) warn(std::move(line));
         if (quantised.unusableUvs > 0) {
             warn("block " + source_.name + ": " + std::to_string(quantised.unusableUvs) +
@@ -94,7 +94,6 @@ class BlockBuilder {
     Result<void> finishLeaves(const BlockLevel& level, const std::vector<Skirts>& skirts) {
         for (std::size_t i = 0; i < level.original.pieces.size(); ++i) {
             std::vector<NodeTriangle> dressed = dressOriginal(mesh_, level.piece(i));
-            result_.report.leafTriangles += dressed.size();
             if (Result<void> done = finish(dressed, nullptr, 1.0, skirts[i]); !done) return done;
         }
         return {};
@@ -118,7 +117,7 @@ class BlockBuilder {
             } else {
                 dressed = dressSeamed(mesh_, level.piece(i), simplified, scratch);
             }
-            result_.report.stuckNodes += simplified.stuck ? 1 : 0;
+            result_.block.nodes[result_.nodes.size()].stuck = simplified.stuck;
             carried_ += simplified.carriedTriangles;
             if (Result<void> done = finish(dressed, surface ? &*surface : nullptr, scale, skirts[i]); !done)
                 return done;
@@ -173,12 +172,7 @@ class BlockBuilder {
     }
 
     void reportResult() {
-        BuildReport& report = result_.report;
-        report.nodes = result_.block.nodes.size();
-        for (const BuiltNode& node : result_.block.nodes) {
-            if (node.childCount == 0)
-                report.leafAreaSquareMetres += static_cast<double>(node.areaSquareMetres);
-        }
+        result_.report.add(countsOf(result_.block));
         const std::string block = "block " + source_.name + ": ";
         if (carried_ > 0) {
             warn(block + std::to_string(carried_) +

@@ -1,144 +1,24 @@
 #include "build/build_scene.h"
 
-#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
-#include <optional>
 
 #include "base/clock.h"
 #include "base/folder_lock.h"
+#include "build/block_memory.h"
 #include "build/build_terrain.h"
 #include "build/hash_block.h"
+#include "build/make_blocks.h"
 
 namespace fb {
 namespace {
 
-// What became of one block; merged in the order of the blocks, whichever thread made it.
-struct FinishedBlock {
-    BuiltBlock block;
-    BuildReport report;
-    std::optional<Error> error;
-};
+// Of a limited memory, so much may hold decoded textures; the rest is for blocks.
+constexpr std::uint64_t kTextureShare = 4;
 
-struct SceneTask {
-    const BlockSource& source;
-    const BuildSettings& settings;
-    const std::filesystem::path& folder;
-    std::uint64_t settingsHash;
-    TextureStore& textures;
-};
-
-double areaOf(const SourceMesh& mesh) {
-    double area = 0.0;
-    for (const glm::uvec3& t : mesh.triangles) {
-        const glm::dvec3& a = mesh.positions[t.x];
-        area += 0.5 * glm::length(glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a));
-    }
-    return area;
-}
-
-// What can be said of a block that an earlier build finished.
-BuildReport reportReused(const SourceBlock& source, const BuiltBlock& block) {
-    BuildReport report;
-    report.blocks = report.reusedBlocks = 1;
-    report.nodes = block.nodes.size();
-    report.sourceTriangles = source.mesh.triangles.size();
-    report.sourceAreaSquareMetres = areaOf(source.mesh);
-    for (const BuiltNode& node : block.nodes) {
-        if (node.childCount > 0) continue;
-        report.leafTriangles +=
-            std::uint64_t{node.texturedTriangles} + node.untexturedTriangles - node.skirtTriangles;
-        report.leafAreaSquareMetres += static_cast<double>(node.areaSquareMetres);
-    }
-    return report;
-}
-
-Result<void> writePack(const SceneTask& task, std::uint32_t index, std::uint64_t blockHash,
-                       BlockBuild& built) {
-    Result<PackWriter> pack = PackWriter::create(task.folder, index);
-    if (!pack) return passOn(pack);
-    for (std::size_t i = 0; i < built.nodes.size(); ++i) {
-        Result<std::vector<std::uint8_t>> payload = encodePayload(built.nodes[i]);
-        if (!payload) return passOn(payload);
-        Result<PayloadRef> ref = pack->append(*payload);
-        if (!ref) return passOn(ref);
-        built.block.nodes[i].payload = *ref;
-    }
-    return pack->finish(built.block, task.settingsHash, blockHash);
-}
-
-Result<void> makeBlock(const SceneTask& task, std::uint32_t index, FinishedBlock& into) {
-    SteadyClock::time_point start = SteadyClock::now();
-    Result<SourceBlock> source = task.source.load(index);
-    if (!source) return passOn(source);
-    const std::uint64_t blockHash = hashBlock(*source, task.textures);
-    const double loadSeconds = secondsSinceLap(start);
-    if (std::optional<BuiltBlock> reused = reusePack(task.folder, index, task.settingsHash, blockHash)) {
-        into.report = reportReused(*source, *reused);
-        into.block = std::move(*reused);
-        return {};
-    }
-    Result<BlockBuild> built = buildBlock(*source, task.settings, task.textures);
-    if (!built) return passOn(built);
-    start = SteadyClock::now();
-    if (!built->nodes.empty()) {
-        if (Result<void> written = writePack(task, index, blockHash, *built); !written) return written;
-    }
-    into.report = std::move(built->report);
-    into.report.phases.load += loadSeconds;
-    into.report.phases.write += secondsSinceLap(start);
-    into.block = std::move(built->block);
-    return {};
-}
-
-// Tells `progress`, one thread at a time and with fractions that never fall, and remembers when it says stop.
-class ProgressGate {
-  public:
-    ProgressGate(const Progress& progress, std::size_t blocks) : progress_(progress), blocks_(blocks) {}
-
-    [[nodiscard]] bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
-    void stop() { stopped_.store(true, std::memory_order_relaxed); }
-    [[nodiscard]] bool stoppedByCaller() const { return stoppedByCaller_; }
-    void blockDone() {
-        const std::scoped_lock lock(mutex_);
-        ++done_;
-        tell("build blocks", static_cast<double>(done_) / static_cast<double>(blocks_));
-    }
-    void tell(std::string_view phase, double fraction) {
-        if (!progress_ || stoppedByCaller_ || progress_(phase, fraction)) return;
-        stoppedByCaller_ = true;
-        stop();
-    }
-
-  private:
-    const Progress& progress_;
-    std::size_t blocks_, done_ = 0;
-    std::mutex mutex_;
-    std::atomic<bool> stopped_ = false;
-    bool stoppedByCaller_ = false;  // under mutex_ while blocks are built
-};
-
-void merge(BuildReport& total, BuildReport&& part) {
-    total.phases.add(part.phases);
-    total.blocks += part.blocks;
-    total.reusedBlocks += part.reusedBlocks;
-    total.nodes += part.nodes;
-    total.emptyPieces += part.emptyPieces;
-    total.stuckNodes += part.stuckNodes;
-    total.sourceTriangles += part.sourceTriangles;
-    total.leafTriangles += part.leafTriangles;
-    total.sourceAreaSquareMetres += part.sourceAreaSquareMetres;
-    total.leafAreaSquareMetres += part.leafAreaSquareMetres;
-    for (std::string& line : part.warnings) {
-        if (std::find(total.warnings.begin(), total.warnings.end(), line) == total.warnings.end()) {
-            total.warnings.push_back(std::move(line));
-        }
-    }
-}
-
-SceneInfo describe(const SceneTask& task, const BuildReport& report, const std::vector<BuiltBlock>& blocks) {
+SceneInfo describe(const BlocksTask& task, const BuildReport& report, const std::vector<BuiltBlock>& blocks) {
     const SourceInfo& source = task.source.info();
     SceneInfo info;
     info.name = source.name;
@@ -153,85 +33,126 @@ SceneInfo describe(const SceneTask& task, const BuildReport& report, const std::
     info.sourceAreaSquareMetres = report.sourceAreaSquareMetres;
     info.sourceHash = source.sourceHash;
     info.buildSettingsHash = task.settingsHash;
+    info.desiredTriangles = static_cast<std::uint64_t>(task.settings.desiredTriangles);
+    info.levelFactor = static_cast<std::uint64_t>(task.settings.levelFactor);
     for (const std::filesystem::path& file : source.files) info.sourceFiles.push_back(file.string());
     info.reportLines = source.report.lines();
     info.walks = source.walks;
     return info;
 }
 
-}  // namespace
-
-void BuildPhases::add(const BuildPhases& other) {
-    for (double BuildPhases::* phase :
-         {&BuildPhases::load, &BuildPhases::textures, &BuildPhases::simplify, &BuildPhases::errors, &BuildPhases::skirts,
-          &BuildPhases::dress, &BuildPhases::atlas, &BuildPhases::encode, &BuildPhases::write}) {
-        this->*phase += other.*phase;
-    }
+tl::unexpected<Error> stopped(const std::filesystem::path& folder) {
+    return failure(folder.string(), {}, "the build was stopped",
+                   "finished blocks are kept: run it again to go on");
 }
+
+// One building of a scene, or of a part of it.
+class SceneBuilder {
+  public:
+    SceneBuilder(const BlockSource& source, const BuildSettings& settings,
+                 const std::filesystem::path& folder, const Progress& progress,
+                 const BuildResources& resources, BuildPart part, bool packsAreDone)
+        : threads_(tbb::global_control::max_allowed_parallelism, threadsOf(resources)),
+          textures_(cacheBytes(resources)),
+          task_{source, settings,    folder, hashBuildSettings(settings), textures_, blockBytes(resources),
+                part,   packsAreDone},
+          gate_(progress,
+                std::max<std::size_t>((source.blockCount() + part.count - 1 - part.index) / part.count, 1)) {}
+
+    Result<BuildReport> buildBlocks() {
+        gate_.tell("build blocks", 0.0);
+        Result<MadeBlocks> made = makeBlocks(task_, gate_);
+        if (!made) return passOn(made);
+        if (gate_.stopped()) return stopped(task_.folder);
+        made_ = std::move(*made);
+        return finishReport();
+    }
+
+    Result<BuildReport> buildAll() {
+        if (Result<BuildReport> blocks = buildBlocks(); !blocks) return blocks;
+        if (Result<void> terrain = addTerrain(); !terrain) return passOn(terrain);
+        gate_.tell("write scene", 0.0);
+        if (gate_.stopped()) return stopped(task_.folder);
+        if (made_.report.nodes == 0)
+            return failure(task_.source.info().name, {}, "there is no triangle to build a scene from");
+        const SceneInfo info = describe(task_, made_.report, made_.blocks);
+        if (Result<void> written = writeScene(task_.folder, info, made_.blocks); !written)
+            return passOn(written);
+        gate_.tell("write scene", 1.0);
+        return finishReport();
+    }
+
+  private:
+    static std::uint64_t shareable(const BuildResources& resources) {
+        return std::max(resources.memoryLimitBytes, kLeastMemoryLimitBytes) - kProgramBytes;
+    }
+    static std::uint64_t cacheBytes(const BuildResources& resources) {
+        if (resources.memoryLimitBytes == 0) return resources.textureCacheBytes;
+        return std::min(resources.textureCacheBytes, shareable(resources) / kTextureShare);
+    }
+    static std::uint64_t blockBytes(const BuildResources& resources) {
+        return resources.memoryLimitBytes == 0 ? 0 : shareable(resources) - cacheBytes(resources);
+    }
+
+    Result<void> addTerrain() {
+        const TerrainSource* terrain = task_.source.terrain();
+        if (terrain == nullptr) return {};
+        const auto goesOn = [&](double fraction) {
+            gate_.tell("build terrain", fraction);
+            return !gate_.stopped();
+        };
+        Result<BuiltTerrain> built =
+            buildTerrain({*terrain, task_.settings, task_.folder,
+                          static_cast<std::uint32_t>(task_.source.blockCount()), task_.settingsHash, goesOn});
+        if (!built && gate_.stopped()) return stopped(task_.folder);
+        if (!built) return passOn(built);
+        made_.report.add(std::move(built->report));
+        made_.blocks.push_back(std::move(built->block));
+        return {};
+    }
+
+    BuildReport finishReport() const {
+        BuildReport report = made_.report;
+        report.textures = textures_.counts();
+        report.seconds = millisecondsSince(start_) / 1000.0;
+        return report;
+    }
+
+    static std::size_t threadsOf(const BuildResources& resources) {
+        const auto cores = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+        return resources.threads == 0 ? cores : resources.threads;
+    }
+
+    SteadyClock::time_point start_ = SteadyClock::now();
+    tbb::global_control threads_;
+    TextureStore textures_;
+    BlocksTask task_;
+    ProgressGate gate_;
+    MadeBlocks made_;
+};
+
+}  // namespace
 
 Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& settings,
                                const std::filesystem::path& folder, const Progress& progress,
-                               std::uint64_t textureCacheBytes) {
-    const SteadyClock::time_point start = SteadyClock::now();
-    const std::size_t count = source.blockCount();
+                               const BuildResources& resources) {
     if (Result<void> made = makeFolder(folder); !made) return passOn(made);
     Result<FolderLock> lock = FolderLock::take(folder);
     if (!lock) return passOn(lock);
-    TextureStore textures(textureCacheBytes);
-    const SceneTask task{source, settings, folder, hashBuildSettings(settings), textures};
-    std::vector<FinishedBlock> finished(count);
-    ProgressGate gate(progress, std::max<std::size_t>(count, 1));
-    gate.tell("build blocks", 0.0);
-    // One block a task: as many blocks are in memory as there are threads.
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-            for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                if (gate.stopped()) return;
-                if (Result<void> made = makeBlock(task, static_cast<std::uint32_t>(i), finished[i]); !made) {
-                    finished[i].error = std::move(made.error());
-                    gate.stop();
-                    return;
-                }
-                gate.blockDone();
-            }
-        },
-        tbb::simple_partitioner());
+    return SceneBuilder(source, settings, folder, progress, resources, {}, false).buildAll();
+}
 
-    BuildReport report;
-    std::vector<BuiltBlock> blocks;
-    for (FinishedBlock& block : finished) {
-        if (block.error) return tl::make_unexpected(std::move(*block.error));
-        merge(report, std::move(block.report));
-        blocks.push_back(std::move(block.block));
-    }
-    if (const TerrainSource* terrain = task.source.terrain(); terrain != nullptr && !gate.stopped()) {
-        const auto goesOn = [&](double fraction) {
-            gate.tell("build terrain", fraction);
-            return !gate.stopped();
-        };
-        Result<BuiltTerrain> built = buildTerrain({*terrain, settings, folder, static_cast<std::uint32_t>(count),
-                                                   task.settingsHash, goesOn});
-        if (!built && !gate.stopped()) return passOn(built);
-        if (built) {
-            merge(report, std::move(built->report));
-            blocks.push_back(std::move(built->block));
-        }
-    }
-    if (!gate.stopped()) gate.tell("write scene", 0.0);
-    if (gate.stopped()) {
-        return failure(folder.string(), {}, "the build was stopped",
-                       "finished blocks are kept: run it again to go on");
-    }
-    if (report.nodes == 0)
-        return failure(source.info().name, {}, "there is no triangle to build a scene from");
-    if (Result<void> written = writeScene(folder, describe(task, report, blocks), blocks); !written) {
-        return passOn(written);
-    }
-    gate.tell("write scene", 1.0);
-    report.textures = textures.counts();
-    report.seconds = millisecondsSince(start) / 1000.0;
-    return report;
+Result<BuildReport> buildPart(const BlockSource& source, const BuildSettings& settings,
+                              const std::filesystem::path& folder, const Progress& progress,
+                              const BuildResources& resources, BuildPart part) {
+    if (Result<void> made = makeFolder(folder); !made) return passOn(made);
+    return SceneBuilder(source, settings, folder, progress, resources, part, false).buildBlocks();
+}
+
+Result<BuildReport> joinParts(const BlockSource& source, const BuildSettings& settings,
+                              const std::filesystem::path& folder, const Progress& progress,
+                              const BuildResources& resources) {
+    return SceneBuilder(source, settings, folder, progress, resources, {}, true).buildAll();
 }
 
 }  // namespace fb

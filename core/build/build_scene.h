@@ -32,7 +32,13 @@ struct BuildReport {
     BuildPhases phases;
     TextureStoreCounts textures;
     std::vector<std::string> warnings;
+
+    // Counts, phases and warnings; each warning once.
+    void add(BuildReport&& part);
 };
+
+// What can be counted of a block, built now or by an earlier build.
+[[nodiscard]] BuildReport countsOf(const BuiltBlock& block);
 
 // Builds one block: nodes breadth first with their content. `settings` as validated by the knob gate.
 struct BlockBuild {
@@ -46,10 +52,35 @@ struct BlockBuild {
 // Decoded texels that are kept for the blocks to come; beyond, they are decoded again.
 inline constexpr std::uint64_t kTextureCacheBytes = std::uint64_t{1} << 30;
 
-// Builds every block of `source` into `folder`, the same for any number of threads and any size of the cache. Errors:
-// folder not writable, a block that cannot be loaded, stopped by `progress`.
+// How to build; none of it changes what comes out.
+struct BuildResources {
+    std::uint64_t textureCacheBytes = kTextureCacheBytes;
+    // What the process may take: program, cached textures and the blocks under construction, as estimated
+    // (block_memory.h). A block that needs more is built alone, and the report says so. Meshes that were read from files
+    // are the caller's. 0: no limit.
+    std::uint64_t memoryLimitBytes = 0;
+    std::uint32_t threads = 0;  // 0: one a core
+};
+// Less holds no block worth building.
+inline constexpr std::uint64_t kLeastMemoryLimitBytes = 256'000'000;
+
+// Builds every block of `source` into `folder`, the same for any number of threads, parts and bytes. Errors: folder not
+// writable, a block that cannot be loaded, stopped by `progress`.
 [[nodiscard]] Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& settings,
                                              const std::filesystem::path& folder, const Progress& progress,
-                                             std::uint64_t textureCacheBytes = kTextureCacheBytes);
+                                             const BuildResources& resources = {});
+
+// Building on several machines that share a folder: each builds one part, any time, and no scene; once all have
+// succeeded, one of them joins. The caller holds the folder's lock meanwhile.
+struct BuildPart {
+    std::uint32_t index = 0, count = 1;
+};
+[[nodiscard]] Result<BuildReport> buildPart(const BlockSource& source, const BuildSettings& settings,
+                                            const std::filesystem::path& folder, const Progress& progress,
+                                            const BuildResources& resources, BuildPart part);
+// Believes that the packs in the folder are those of these parts; builds the terrain and writes the scene.
+[[nodiscard]] Result<BuildReport> joinParts(const BlockSource& source, const BuildSettings& settings,
+                                            const std::filesystem::path& folder, const Progress& progress,
+                                            const BuildResources& resources);
 
 }  // namespace fb

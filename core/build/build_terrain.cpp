@@ -75,8 +75,8 @@ class TerrainBuilder {
         if (std::optional<BuiltBlock> reused =
                 reusePack(task_.folder, task_.pack, task_.settingsHash, hash_)) {
             result_.block = std::move(*reused);
+            result_.report = countsOf(result_.block);
             result_.report.reusedBlocks = 1;
-            finishReport();
             return std::move(result_);
         }
         Result<TerrainGrid> grid = makeTerrainGrid(info_);
@@ -99,7 +99,7 @@ class TerrainBuilder {
         result_.block.kind = BlockKind::terrain;
         if (Result<void> built = buildNodes(build, look); !built) return passOn(built);
         if (Result<void> joined = join(); !joined) return passOn(joined);
-        finishReport();
+        result_.report = countsOf(result_.block);
         std::error_code ignored;
         std::filesystem::remove_all(work_, ignored);
         return std::move(result_);
@@ -130,7 +130,6 @@ class TerrainBuilder {
         return runner.run(above, [&](std::size_t i) -> Result<void> {
             Result<TerrainNode> node = makeTerrainNode(build, look, tree_.nodes[i].tile);
             if (!node) return passOn(node);
-            stuck_ += node->stuck ? 1 : 0;
             Result<std::vector<std::uint8_t>> payload = encodePayload(node->data);
             if (!payload) return passOn(payload);
             upper_[i] = std::move(*payload);
@@ -161,7 +160,9 @@ class TerrainBuilder {
                                  std::uint64_t partHash) {
         Result<PackWriter> pack = PackWriter::create(work_, number);
         if (!pack) return passOn(pack);
-        BuiltBlock block{result_.block.grid, BlockKind::terrain, {}};
+        BuiltBlock block;
+        block.grid = result_.block.grid;
+        block.kind = BlockKind::terrain;
         std::uint32_t nextChild = 1;
         std::vector<std::uint32_t> parents(nodes.size(), 0);
         for (std::uint32_t i = 0; i < nodes.size(); ++i) {
@@ -169,7 +170,6 @@ class TerrainBuilder {
             for (std::uint32_t c = 0; c < node.childCount; ++c) parents[nextChild++] = i;
             Result<TerrainNode> made = makeTerrainNode(build, look, node.tile);
             if (!made) return passOn(made);
-            stuck_ += made->stuck ? 1 : 0;
             Result<std::vector<std::uint8_t>> payload = encodePayload(made->data);
             if (!payload) return passOn(payload);
             Result<PayloadRef> ref = pack->append(*payload);
@@ -211,22 +211,11 @@ class TerrainBuilder {
             nodes[i].level = static_cast<std::uint8_t>(node.tile.level);
         }
         growParents(nodes);
+        // A map has no triangles but those of its leaves.
+        const BuildReport counts = countsOf(result_.block);
+        result_.block.sourceTriangles = counts.leafTriangles;
+        result_.block.sourceAreaSquareMetres = counts.leafAreaSquareMetres;
         return pack->finish(result_.block, task_.settingsHash, hash_);
-    }
-
-    void finishReport() {
-        BuildReport& report = result_.report;
-        report.blocks = 1;
-        report.nodes = result_.block.nodes.size();
-        report.stuckNodes = stuck_;
-        for (const BuiltNode& node : result_.block.nodes) {
-            if (node.childCount > 0) continue;
-            report.leafTriangles +=
-                std::uint64_t{node.texturedTriangles} + node.untexturedTriangles - node.skirtTriangles;
-            report.leafAreaSquareMetres += static_cast<double>(node.areaSquareMetres);
-        }
-        report.sourceTriangles = report.leafTriangles;
-        report.sourceAreaSquareMetres = report.leafAreaSquareMetres;
     }
 
     const TerrainTask& task_;
@@ -238,7 +227,6 @@ class TerrainBuilder {
     std::uint32_t partLevel_ = 0;
     std::vector<FileReader> parts_;
     std::vector<std::vector<std::uint8_t>> upper_;  // payloads of the nodes above the parts
-    std::atomic<std::uint64_t> stuck_ = 0;
     BuiltTerrain result_;
 };
 

@@ -7,6 +7,8 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "base/check.h"
+
 namespace fb {
 
 inline constexpr std::size_t kMostCellCorners = 12;
@@ -16,7 +18,10 @@ struct Cell {
     std::array<glm::dvec3, kMostCellCorners> corners;
 
     Cell() {}  // corners from `count` on stay unset
-    void add(const glm::dvec3& p) { corners[count++] = p; }
+    void add(const glm::dvec3& p) {
+        FB_CHECK(count < kMostCellCorners);
+        corners[count++] = p;
+    }
     [[nodiscard]] std::span<const glm::dvec3> points() const { return {corners.data(), count}; }
     [[nodiscard]] glm::dvec3 centre() const {
         glm::dvec3 sum(0.0);
@@ -36,11 +41,17 @@ class Cuts {
             least_ = std::min(least_, distances_[i]);
             most_ = std::max(most_, distances_[i]);
         }
-        canSplit_ = cell.count < kMostCellCorners;
+        // Rounding lets a sliver change sides more often than a convex polygon can.
+        int crossings = 0;
+        for (std::size_t i = 0; i < cell.count; ++i) {
+            const double next = distances_[(i + 1) % cell.count];
+            crossings += (distances_[i] > 0.0 && next < 0.0) || (distances_[i] < 0.0 && next > 0.0) ? 1 : 0;
+        }
+        canSplit_ = cell.count < kMostCellCorners && crossings <= 2;
     }
 
     [[nodiscard]] bool isInside() const { return least_ >= -margin_; }
-    // Or has too many corners for a cut.
+    // Or cannot be cut: it has too many corners, or is too thin.
     [[nodiscard]] bool isOutside() const { return most_ <= margin_ || !canSplit_; }
     // Where it is neither: both parts, with the corners between them the same.
     void split(const Cell& cell, Cell& inside, Cell& outside) const {

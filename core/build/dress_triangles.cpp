@@ -24,12 +24,9 @@ class OriginalCorners {
   public:
     OriginalCorners(const BlockMesh& mesh, std::span<const MeshTriangle> piece,
                     const SimplifiedPiece& simplified, std::vector<std::uint32_t>& scratch)
-        : scratch_(scratch) {
+        : mesh_(mesh), simplified_(simplified), scratch_(scratch) {
         FB_CHECK(scratch.size() == mesh.positions.size());
-        for (const glm::uvec3& ids : simplified.triangles) {
-            for (int k = 0; k < 3; ++k)
-                scratch_[simplified.welded ? ids[k] : mesh.wedges[ids[k]].position] = 0;
-        }
+        setAll(0);
         for (const MeshTriangle& triangle : piece) {
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t position = mesh.wedges[triangle.wedges[k]].position;
@@ -42,12 +39,11 @@ class OriginalCorners {
         for (std::size_t i = corners_.size(); i-- > 0;)
             scratch_[corners_[i].position] = static_cast<std::uint32_t>(i);
     }
-    ~OriginalCorners() {
-        for (const OriginalCorner& corner : corners_) scratch_[corner.position] = kNone;
-    }
+    ~OriginalCorners() { setAll(kNone); }
     OriginalCorners(const OriginalCorners&) = delete;
     OriginalCorners& operator=(const OriginalCorners&) = delete;
 
+    // None at a position that is not the original's.
     [[nodiscard]] std::span<const OriginalCorner> at(std::uint32_t position) const {
         const std::size_t begin = scratch_[position];
         std::size_t end = begin;
@@ -56,6 +52,15 @@ class OriginalCorners {
     }
 
   private:
+    void setAll(std::uint32_t value) {
+        for (const glm::uvec3& ids : simplified_.triangles) {
+            for (int k = 0; k < 3; ++k)
+                scratch_[simplified_.welded ? ids[k] : mesh_.wedges[ids[k]].position] = value;
+        }
+    }
+
+    const BlockMesh& mesh_;
+    const SimplifiedPiece& simplified_;
     std::vector<OriginalCorner> corners_;
     std::vector<std::uint32_t>& scratch_;
 };

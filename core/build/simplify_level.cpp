@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "build/numbering.h"
 #include "build/simplify_mesh.h"
+#include "build/stand_ins.h"
 
 namespace fb {
 namespace {
@@ -33,15 +34,17 @@ enum class Cuts : std::uint8_t { seams, locked };
 
 class LevelSimplifier {
   public:
-    LevelSimplifier(const BlockMesh& mesh, const Level& level, Simplifier simplifier)
+    LevelSimplifier(BlockMesh& mesh, const Level& level, Simplifier simplifier)
         : mesh_(mesh),
           level_(level),
           simplifier_(simplifier),
           vertices_(std::max(mesh.wedges.size(), mesh.positions.size())),
           places_(mesh.positions.size()) {}
 
-    std::vector<SimplifiedPiece> run(std::span<const std::size_t> aims) {
+    std::vector<SimplifiedPiece> run(std::span<const std::size_t> wanted) {
         const std::size_t pieces = level_.pieces.size();
+        std::vector<std::size_t> aims;
+        for (std::size_t i = 0; i < pieces; ++i) aims.push_back(withoutSmallParts(i, wanted[i]));
         Seams seams = Seams::kept;
         std::vector<std::vector<glm::uvec3>> joint(pieces);
         std::uint64_t jointCarried = 0;
@@ -63,8 +66,11 @@ class LevelSimplifier {
         }
         std::vector<SimplifiedPiece> result(pieces);
         for (std::size_t i = 0; i < pieces; ++i) {
-            result[i] =
-                simplifyAlone(i, joint[i], seams, {aims[i], together ? mostTriangles(aims[i]) : aims[i]});
+            if (aims[i] > 0) {
+                result[i] = simplifyAlone(i, joint[i], seams,
+                                          {aims[i], together ? mostTriangles(aims[i]) : aims[i]});
+            }
+            addStandIns(result[i], i);
         }
         if (pieces > 0) result[0].carriedTriangles += jointCarried;
         return result;
@@ -103,10 +109,40 @@ class LevelSimplifier {
                             mesh_.positions[positionOf(ids.z, seams)]);
     }
 
-    // The piece's triangles before simplification.
+    // What is left of the aim for the rest of the piece; 0 where nothing is left of the piece.
+    std::size_t withoutSmallParts(std::size_t piece, std::size_t aim) {
+        standIns_.emplace_back();
+        const std::vector<glm::uvec3> triangles = original(piece, Seams::welded);
+        standIns_[piece] = makeStandIns(mesh_, triangles, aim);
+        const StandIns& made = standIns_[piece];
+        if (made.empty()) return aim;
+        const auto left = static_cast<std::size_t>(std::ranges::count(made.replaced, std::uint8_t{0}));
+        const std::size_t rest = aim > made.triangles.size() ? aim - made.triangles.size() : 0;
+        return std::min(left, std::max(rest, kSmallestAim));
+    }
+
+    void addStandIns(SimplifiedPiece& simplified, std::size_t piece) const {
+        const StandIns& made = standIns_[piece];
+        if (made.empty()) return;
+        if (!simplified.welded) weld(simplified.triangles);
+        simplified.welded = true;
+        simplified.triangles.insert(simplified.triangles.end(), made.triangles.begin(), made.triangles.end());
+        std::vector<std::uint32_t>& replaced = simplified.replaced;
+        for (std::uint32_t t = 0; t < made.replaced.size(); ++t) {
+            if (made.replaced[t] == 0) continue;
+            const glm::uvec3& wedges = level_.triangles[level_.pieces[piece].begin + t].wedges;
+            for (int k = 0; k < 3; ++k) replaced.push_back(mesh_.wedges[wedges[k]].position);
+        }
+        std::ranges::sort(replaced);
+        replaced.erase(std::unique(replaced.begin(), replaced.end()), replaced.end());
+    }
+
+    // The piece's triangles before simplification, but for those that have stand-ins.
     [[nodiscard]] std::vector<glm::uvec3> original(std::size_t piece, Seams seams) const {
         std::vector<glm::uvec3> result;
-        for (std::uint32_t t = level_.pieces[piece].begin; t < level_.pieces[piece].end; ++t) {
+        const std::uint32_t begin = level_.pieces[piece].begin;
+        for (std::uint32_t t = begin; t < level_.pieces[piece].end; ++t) {
+            if (!standIns_[piece].empty() && standIns_[piece].replaced[t - begin] != 0) continue;
             result.push_back(level_.triangles[t].wedges);
         }
         if (seams == Seams::welded) weld(result);
@@ -212,9 +248,10 @@ class LevelSimplifier {
         return best;
     }
 
-    const BlockMesh& mesh_;
+    BlockMesh& mesh_;
     const Level& level_;
     Simplifier simplifier_;
+    std::vector<StandIns> standIns_;  // by piece
     Numbering vertices_, places_;
 };
 
@@ -225,7 +262,7 @@ std::size_t simplificationAim(std::size_t triangles, double factor) {
     return std::max(static_cast<std::size_t>(aim), std::min(triangles, kSmallestAim));
 }
 
-std::vector<SimplifiedPiece> simplifyLevel(const BlockMesh& mesh, const Level& level,
+std::vector<SimplifiedPiece> simplifyLevel(BlockMesh& mesh, const Level& level,
                                            std::span<const std::size_t> aims, Simplifier simplifier) {
     FB_CHECK(aims.size() == level.pieces.size());
     return LevelSimplifier(mesh, level, simplifier).run(aims);

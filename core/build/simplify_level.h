@@ -1,6 +1,6 @@
 // Simplifies the pieces of one level from the original, each to its own aim (thesis 3.2).
 // Comes from split_mesh; finish_node dresses the result with attributes.
-// Two steps. First all pieces of the level together, to the sum of their aims: cutting planes are seams
+// Many small separate parts of a piece make room for stand-ins first (stand_ins.h). Then two steps. First all pieces of the level together, to the sum of their aims: cutting planes are seams
 // there, so both sides of a cut are simplified alike and pieces of one level always meet exactly, and
 // triangles go where detail is. Then each piece that still has more than kStuckFactor times its aim alone,
 // with the vertices on cutting planes locked. Where texture seams hinder, they are welded and colours carried
@@ -25,13 +25,14 @@ struct SimplifiedPiece {
     bool clustered = false;  // then not even pieces of one level meet at cuts
     bool stuck = false;
     std::uint64_t carriedTriangles = 0;
+    std::vector<std::uint32_t> replaced;  // positions of parts that stand-ins are drawn for, ascending
 };
 
 // Triangles that a piece of `triangles` should have at `factor`.
 [[nodiscard]] std::size_t simplificationAim(std::size_t triangles, double factor);
 
-// One result per piece; never without triangles. `aims` by piece.
-[[nodiscard]] std::vector<SimplifiedPiece> simplifyLevel(const BlockMesh& mesh, const Level& level,
+// One result per piece; never without triangles. Stand-ins add positions to the mesh. `aims` by piece.
+[[nodiscard]] std::vector<SimplifiedPiece> simplifyLevel(BlockMesh& mesh, const Level& level,
                                                          std::span<const std::size_t> aims,
                                                          Simplifier simplifier);
 

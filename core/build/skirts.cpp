@@ -140,6 +140,12 @@ class SkirtPlanner {
         return piece;
     }
 
+    // Whether the edge belongs to a small part that has a stand-in at that level: no surface goes on beyond.
+    bool isReplaced(std::size_t level, std::size_t piece, std::uint32_t a, std::uint32_t b) const {
+        const std::vector<std::uint32_t>& replaced = levels_[level].simplified[piece].replaced;
+        return std::ranges::binary_search(replaced, a) || std::ranges::binary_search(replaced, b);
+    }
+
     double depthOf(const PieceBorder& border, const BorderEdge& edge, std::size_t l, std::size_t i,
                    const glm::dvec3& down) const {
         if (edge.kind == BorderKind::free) return errors_[l][i];
@@ -150,8 +156,9 @@ class SkirtPlanner {
         for (std::size_t m = 0; m < levels_.size(); ++m) {
             const auto line = lines_[m].find({edge.kind, edge.plane});
             if (m == l || line == lines_[m].end()) continue;
-            // Where the other level has nothing any more, its border is far off, and there is no gap to close.
             const std::size_t coarse = std::min(l, m);
+            if (m < l && isReplaced(m, ancestorAt(l, i, m), a, b)) continue;
+            // Where the other level has nothing any more, its border is far off, and there is no gap to close.
             const double most = 2.0 * errors_[coarse][ancestorAt(l, i, coarse)];
             const double factor = edge.kind == BorderKind::block ? kBlockFactor : 1.0;
             depth = std::max(depth, std::min(most, factor * gapTo(line->second, segment, down)));

@@ -154,7 +154,7 @@ Result<TerrainNode> makeTerrainNode(const TerrainBuild& build, const TerrainLook
     Result<TileMesh> mesh = makeTile(build, tile);
     if (!mesh) return passOn(mesh);
     TerrainNode node;
-    node.stuck = mesh->stuck;
+    node.record.stuck = mesh->stuck;
     DrapeRect rect;
     if (look.drape.isThere()) {
         rect = drapeRect(look, build.layout, *mesh, tile.level);

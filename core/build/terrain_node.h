@@ -26,7 +26,6 @@ struct TerrainLook {
 struct TerrainNode {
     BuiltNode record;  // without links and payload
     NodeData data;
-    bool stuck = false;
 };
 [[nodiscard]] Result<TerrainNode> makeTerrainNode(const TerrainBuild& build, const TerrainLook& look,
                                                   const TerrainTile& tile);

@@ -16,6 +16,7 @@ bool sameLengths(const Hierarchy& h) {
     const std::array lengths = {h.firstChild.size(),
                                 h.childCount.size(),
                                 h.level.size(),
+                                h.stuck.size(),
                                 h.block.size(),
                                 h.bounds.size(),
                                 h.texturedTriangles.size(),

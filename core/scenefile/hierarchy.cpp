@@ -13,6 +13,7 @@ void Hierarchy::resize(std::size_t nodes) {
     firstChild.resize(nodes, kNoNode);
     childCount.resize(nodes, 0);
     level.resize(nodes, 0);
+    stuck.resize(nodes, 0);
     block.resize(nodes, 0);
     bounds.resize(nodes);
     texturedTriangles.resize(nodes, 0);

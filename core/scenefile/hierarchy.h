@@ -39,6 +39,7 @@ struct Hierarchy {
     std::vector<NodeId> firstChild;  // kNoNode for leaves
     std::vector<std::uint32_t> childCount;
     std::vector<std::uint8_t> level;
+    std::vector<std::uint8_t> stuck;  // 1: has many more triangles than it should, since shapes would be lost
     std::vector<std::uint32_t> block;
     std::vector<Box3f> bounds;  // contains the bounds of all descendants
     std::vector<std::uint32_t> texturedTriangles, untexturedTriangles, vertices;

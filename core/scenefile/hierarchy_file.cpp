@@ -3,6 +3,7 @@
 #include "base/check.h"
 #include "base/hash.h"
 #include "scenefile/byte_stream.h"
+#include "scenefile/level_field.h"
 #include "scenefile/limits.h"
 #include "scenefile/node_data.h"
 #include "scenefile/pack_format.h"
@@ -23,7 +24,7 @@ void putBlock(ByteWriter& out, const BlockGrid& grid, BlockKind kind, const Stor
 
 void putNode(ByteWriter& out, const Hierarchy& h, NodeId n) {
     out.put(n).put(h.parent[n]).put(h.firstChild[n]).put(h.childCount[n]);
-    out.put(std::uint32_t{h.level[n]}).put(h.block[n]).put(h.bounds[n].min).put(h.bounds[n].max);
+    out.put(packLevel(h.level[n], h.stuck[n] != 0)).put(h.block[n]).put(h.bounds[n].min).put(h.bounds[n].max);
     out.put(h.texturedTriangles[n]).put(h.untexturedTriangles[n]).put(h.skirtTriangles[n]).put(h.vertices[n]);
     out.put(h.staticBenefit[n]).put(h.averageNormal[n]).put(h.normalCoherence[n]);
     out.put(h.areaSquareMetres[n])
@@ -41,8 +42,9 @@ bool getNode(ByteReader& in, Hierarchy& h, NodeId n) {
     in.get(h.parent[n]);
     in.get(h.firstChild[n]);
     in.get(h.childCount[n]);
-    const auto level = in.get<std::uint32_t>();
-    h.level[n] = static_cast<std::uint8_t>(level <= kMaxLevel ? level : 0);
+    bool stuck = false;
+    const bool isLevel = unpackLevel(in.get<std::uint32_t>(), h.level[n], stuck);
+    h.stuck[n] = stuck ? 1 : 0;
     in.get(h.block[n]);
     in.get(h.bounds[n].min);
     in.get(h.bounds[n].max);
@@ -62,7 +64,7 @@ bool getNode(ByteReader& in, Hierarchy& h, NodeId n) {
     in.get(h.payload[n].offset);
     in.get(h.payload[n].sizeBytes);
     in.get(h.payload[n].checksum);
-    return id == n && level <= kMaxLevel;
+    return id == n && isLevel;
 }
 
 struct Header {
@@ -155,7 +157,8 @@ std::vector<std::uint8_t> encodeHierarchyFile(const HierarchyFile& file) {
     FB_CHECK(file.packs.size() == h.grids.size());
     FB_CHECK(file.packs.size() == h.kinds.size());
     ByteWriter blocks;
-    for (std::size_t b = 0; b < file.packs.size(); ++b) putBlock(blocks, h.grids[b], h.kinds[b], file.packs[b]);
+    for (std::size_t b = 0; b < file.packs.size(); ++b)
+        putBlock(blocks, h.grids[b], h.kinds[b], file.packs[b]);
     FB_CHECK(blocks.size() == file.packs.size() * kBlockRecordBytes);
     ByteWriter nodes;
     nodes.reserve(h.size() * kNodeRecordBytes);

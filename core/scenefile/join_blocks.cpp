@@ -15,6 +15,7 @@ std::size_t nodeCount(const std::vector<BuiltBlock>& blocks) {
 void setNode(Hierarchy& h, NodeId id, const BuiltNode& node) {
     h.childCount[id] = node.childCount;
     h.level[id] = node.level;
+    h.stuck[id] = node.stuck ? 1 : 0;
     h.bounds[id] = node.bounds;
     h.texturedTriangles[id] = node.texturedTriangles;
     h.untexturedTriangles[id] = node.untexturedTriangles;

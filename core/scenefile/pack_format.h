@@ -1,7 +1,8 @@
 // The bytes of a pack, blocks/NNNNN.pack:
 //   header   magic, version, block number (16 bytes)
 //   payloads in breadth-first order, each at a multiple of 8 bytes, gaps filled with zeros
-//   trailer  magic, settings hash, block hash, grid, kind of block, node count, node records, then length and
+//   trailer  magic, settings hash, block hash, grid, kind of block, triangles and area of
+//            its source, node count, node records, then length and
 //   checksum of the trailer
 // The trailer is what makes a pack whole: a killed build takes up packs that have one. Its checksum, the
 // file's last 8 bytes, covers the payloads' checksums and so stands for the whole pack; hierarchy.bin keeps
@@ -25,7 +26,7 @@ inline constexpr std::string_view kTrailerMagic = "fbtrail\n";
 inline constexpr std::uint32_t kPackHeaderBytes = 16;
 inline constexpr std::uint32_t kPackAlignment = 8;
 inline constexpr std::uint32_t kBuiltNodeBytes = 112;
-inline constexpr std::uint32_t kLeastTrailerBytes = 88 + kBuiltNodeBytes;  // of a block with one node
+inline constexpr std::uint32_t kLeastTrailerBytes = 104 + kBuiltNodeBytes;  // of a block with one node
 
 struct PackTrailer {
     std::uint64_t settingsHash = 0, blockHash = 0;

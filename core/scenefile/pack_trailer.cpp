@@ -4,6 +4,7 @@
 #include "base/check.h"
 #include "base/hash.h"
 #include "scenefile/byte_stream.h"
+#include "scenefile/level_field.h"
 #include "scenefile/limits.h"
 #include "scenefile/pack_format.h"
 
@@ -13,7 +14,7 @@ namespace {
 void putNode(ByteWriter& out, const BuiltNode& n) {
     out.put(n.parentInBlock)
         .put(n.childCount)
-        .put(std::uint32_t{n.level})
+        .put(packLevel(n.level, n.stuck))
         .put(n.bounds.min)
         .put(n.bounds.max);
     out.put(n.texturedTriangles).put(n.untexturedTriangles).put(n.skirtTriangles).put(n.vertices);
@@ -27,8 +28,7 @@ void putNode(ByteWriter& out, const BuiltNode& n) {
 bool getNode(ByteReader& in, BuiltNode& n) {
     in.get(n.parentInBlock);
     in.get(n.childCount);
-    const auto level = in.get<std::uint32_t>();
-    n.level = static_cast<std::uint8_t>(level <= kMaxLevel ? level : 0);
+    const bool isLevel = unpackLevel(in.get<std::uint32_t>(), n.level, n.stuck);
     in.get(n.bounds.min);
     in.get(n.bounds.max);
     in.get(n.texturedTriangles);
@@ -47,7 +47,7 @@ bool getNode(ByteReader& in, BuiltNode& n) {
     in.get(n.payload.offset);
     in.get(n.payload.sizeBytes);
     in.get(n.payload.checksum);
-    return level <= kMaxLevel;
+    return isLevel;
 }
 
 // What joinBlocks() takes for granted.
@@ -79,6 +79,7 @@ std::vector<std::uint8_t> encodeTrailer(const PackTrailer& trailer) {
     out.text(kTrailerMagic).put(trailer.settingsHash).put(trailer.blockHash);
     out.put(trailer.block.grid.origin).put(trailer.block.grid.step);
     out.put(std::uint64_t{static_cast<std::uint8_t>(trailer.block.kind)});
+    out.put(trailer.block.sourceTriangles).put(trailer.block.sourceAreaSquareMetres);
     out.put(static_cast<std::uint64_t>(trailer.block.nodes.size()));
     const std::size_t head = out.size();
     for (const BuiltNode& node : trailer.block.nodes) putNode(out, node);
@@ -98,10 +99,13 @@ Result<PackTrailer> parseTrailer(std::span<const std::uint8_t> bytes, const std:
     in.get(trailer.block.grid.origin);
     in.get(trailer.block.grid.step);
     const auto kind = in.get<std::uint64_t>();
+    in.get(trailer.block.sourceTriangles);
+    in.get(trailer.block.sourceAreaSquareMetres);
     const auto count = in.get<std::uint64_t>();
     if (!in.whole() || in.left() < 16) return fault("is cut short");
     if (count > kMaxNodes || count * kBuiltNodeBytes != in.left() - 16)
         return fault("claims a wrong number of nodes");
+    if (!(trailer.block.sourceAreaSquareMetres >= 0.0)) return fault("its source has no area that could be");
     if (kind > static_cast<std::uint64_t>(BlockKind::terrain)) return fault("its kind of block is unknown");
     trailer.block.kind = static_cast<BlockKind>(kind);
     trailer.block.nodes.resize(count);

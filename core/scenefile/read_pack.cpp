@@ -118,6 +118,15 @@ Result<std::vector<std::uint8_t>> readVerified(const FileReader& pack, const Pay
     return bytes;
 }
 
+std::optional<BuiltBlock> takePack(const std::filesystem::path& sceneFolder, std::uint32_t block,
+                                   std::uint64_t settingsHash) {
+    Result<FileReader> pack = FileReader::open(sceneFolder / packName(block));
+    if (!pack) return std::nullopt;
+    Result<PackTrailer> trailer = readPackFrame(*pack, block);
+    if (!trailer || trailer->settingsHash != settingsHash) return std::nullopt;
+    return std::move(trailer->block);
+}
+
 std::optional<BuiltBlock> reusePack(const std::filesystem::path& sceneFolder, std::uint32_t block,
                                     std::uint64_t settingsHash, std::uint64_t blockHash) {
     Result<FileReader> pack = FileReader::open(sceneFolder / packName(block));

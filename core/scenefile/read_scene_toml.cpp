@@ -162,6 +162,8 @@ Result<SceneToml> parseSceneToml(std::string_view text, const std::string& what)
     in.real("source_area_m2", 0.0, std::numeric_limits<double>::max(), info.sourceAreaSquareMetres);
     in.hash("source_hash", info.sourceHash);
     in.hash("build_settings_hash", info.buildSettingsHash);
+    in.count("desired_triangles", info.desiredTriangles);
+    in.count("level_factor", info.levelFactor);
     in.hash("hierarchy_hash", scene.hierarchyHash);
     in.texts("source_files", info.sourceFiles);
     in.texts("report", info.reportLines);

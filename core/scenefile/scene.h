@@ -16,7 +16,7 @@
 
 namespace fb {
 
-inline constexpr std::uint32_t kSceneFormatVersion = 3;
+inline constexpr std::uint32_t kSceneFormatVersion = 4;
 
 struct SceneInfo {
     std::string name;
@@ -27,6 +27,7 @@ struct SceneInfo {
     std::uint64_t sourceTriangles = 0;  // after clean-up, before cutting
     double sourceAreaSquareMetres = 0.0;
     std::uint64_t sourceHash = 0, buildSettingsHash = 0;
+    std::uint64_t desiredTriangles = 0, levelFactor = 0;  // c_desiredTris and c_levelFactor as built
     std::vector<std::string> sourceFiles;
     std::vector<std::string> reportLines;  // what the import dropped or repaired
     std::vector<WalkHint> walks;
@@ -63,6 +64,7 @@ struct BuiltNode {
     std::uint32_t parentInBlock = 0;  // index within the block, root: 0 is its own parent
     std::uint32_t childCount = 0;
     std::uint8_t level = 0;
+    bool stuck = false;  // has many more triangles than it should
     Box3f bounds;
     std::uint32_t texturedTriangles = 0, untexturedTriangles = 0, skirtTriangles = 0, vertices = 0;
     float staticBenefit = 0, normalCoherence = 0, areaSquareMetres = 0, geometricErrorMetres = 0;
@@ -76,6 +78,8 @@ struct BuiltNode {
 struct BuiltBlock {
     BlockGrid grid;
     BlockKind kind = BlockKind::objects;
+    std::uint64_t sourceTriangles = 0;  // before cutting
+    double sourceAreaSquareMetres = 0.0;
     std::vector<BuiltNode> nodes;
 };
 
@@ -95,6 +99,9 @@ class PackWriter {
 // The block that an earlier, killed build finished with the same settings and source, or nothing.
 [[nodiscard]] std::optional<BuiltBlock> reusePack(const std::filesystem::path& sceneFolder, std::uint32_t block,
                                                   std::uint64_t settingsHash, std::uint64_t blockHash);
+// The same of a pack that is known to be of the right source and to have been written just now: payloads are not read.
+[[nodiscard]] std::optional<BuiltBlock> takePack(const std::filesystem::path& sceneFolder, std::uint32_t block,
+                                                 std::uint64_t settingsHash);
 
 // Joins the blocks into one hierarchy and writes scene.toml, then hierarchy.bin: the scene is complete when
 // hierarchy.bin has its name. The blocks' packs must be there, in ascending order; blocks without nodes are left out.

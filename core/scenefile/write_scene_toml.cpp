@@ -90,6 +90,8 @@ Result<std::string> sceneTomlText(const SceneToml& scene, const Hierarchy& hiera
     out += "source_area_m2 = " + tomlReal(info.sourceAreaSquareMetres) + "\n";
     out += "source_hash = \"" + hashText(info.sourceHash) + "\"\n";
     out += "build_settings_hash = \"" + hashText(info.buildSettingsHash) + "\"\n";
+    out += "desired_triangles = " + std::to_string(info.desiredTriangles) + "\n";
+    out += "level_factor = " + std::to_string(info.levelFactor) + "\n";
     out += "hierarchy_hash = \"" + hashText(scene.hierarchyHash) + "\"  # of hierarchy.bin\n";
     out += "source_files = " + tomlList(info.sourceFiles) + "\n";
     out += "report = " + tomlList(info.reportLines) + "  # what the import dropped or repaired\n";

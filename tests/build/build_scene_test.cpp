@@ -120,6 +120,46 @@ TEST_F(BuildScene, GivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(files(folder("1")).size(), 7u);  // hierarchy.bin, scene.toml, five packs
 }
 
+TEST_F(BuildScene, GivesTheSameBytesInParts) {
+    street.withGap = true;  // a block without a pack
+    ASSERT_TRUE(buildScene(street, settings, folder("whole"), goOn));
+    for (const std::uint32_t parts : {1u, 2u, 3u, 8u}) {
+        const fs::path here = folder(std::to_string(parts));
+        std::uint64_t nodes = 0;
+        for (std::uint32_t i = parts; i-- > 0;) {
+            const Result<BuildReport> part = buildPart(street, settings, here, goOn, {}, {i, parts});
+            ASSERT_TRUE(part) << part.error().oneLine();
+            EXPECT_EQ(part->blocks, (5u + parts - 1 - i) / parts);
+            nodes += part->nodes;
+        }
+        EXPECT_FALSE(fs::exists(here / "hierarchy.bin"));
+        const Result<BuildReport> joined = joinParts(street, settings, here, goOn, {});
+        ASSERT_TRUE(joined) << joined.error().oneLine();
+        EXPECT_EQ(joined->nodes, nodes);
+        EXPECT_EQ(joined->leafTriangles, 4u * 512u);
+        EXPECT_EQ(files(here), files(folder("whole")));
+    }
+}
+
+TEST_F(BuildScene, JoiningTakesPacksUnreadButForMissingOnes) {
+    ASSERT_TRUE(buildPart(street, settings, folder("a"), goOn, {}, {0, 1}));
+    street.loads = 0;
+    ASSERT_TRUE(joinParts(street, settings, folder("a"), goOn, {}));
+    EXPECT_EQ(street.loads, 0);
+    fs::remove(folder("a") / "blocks" / "00002.pack");
+    ASSERT_TRUE(joinParts(street, settings, folder("a"), goOn, {}));
+    EXPECT_EQ(street.loads, 1);
+}
+
+TEST_F(BuildScene, GivesTheSameBytesWithinAMemoryLimit) {
+    ASSERT_TRUE(buildScene(street, settings, folder("whole"), goOn));
+    const BuildResources resources{.memoryLimitBytes = kLeastMemoryLimitBytes, .threads = 3};
+    const Result<BuildReport> limited = buildScene(street, settings, folder("limited"), goOn, resources);
+    ASSERT_TRUE(limited);
+    EXPECT_TRUE(limited->warnings.empty());
+    EXPECT_EQ(files(folder("whole")), files(folder("limited")));
+}
+
 TEST_F(BuildScene, TakesUpAStoppedBuildWithTheSameResult) {
     ASSERT_TRUE(buildScene(street, settings, folder("whole"), goOn));
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);

@@ -55,6 +55,14 @@ RC_GTEST_PROP(HighestOfLeast, IsWhatAGridOfPointsComesClosestTo, (std::uint64_t 
     RC_ASSERT(highestOfLeast(values) <= highest + 2.0f / static_cast<float>(kSide));
 }
 
+TEST(ConvexCell, ThatIsThinnerThanRoundingIsNotCut) {
+    Cell cell;  // eleven corners along a line, whose distances to it change sign at each
+    for (int i = 0; i < 11; ++i) cell.add({i, i % 2 == 0 ? 1e-9 : -1e-9, 0.0});
+    const Cuts cuts(cell, glm::dvec3(0.0), {0, 1, 0}, 1e-12);
+    EXPECT_FALSE(cuts.isInside());
+    EXPECT_TRUE(cuts.isOutside());
+}
+
 double areaOf(const Cell& cell) {
     double area = 0.0;
     for (std::size_t i = 2; i < cell.count; ++i)

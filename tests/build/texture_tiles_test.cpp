@@ -367,7 +367,7 @@ TEST(TextureTiles, AreDecodedAndHashedOnceABuildAndDoNotDependOnThreadsOrCache) 
     // to 195 and 365 to 435 are tiles 1, 2, 3 and 5, 6; rows 5 to 475 are all eight.
     EXPECT_EQ(large->textures.texelsDecoded, 512u * 512u + 5u * 8u * 64u * 64u);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Result<BuildReport> small = buildScene(source, BuildSettings{}, folder / "small", nullptr, 0);
+    const Result<BuildReport> small = buildScene(source, BuildSettings{}, folder / "small", nullptr, {.textureCacheBytes = 0});
     ASSERT_TRUE(small) << small.error().oneLine();
     EXPECT_EQ(small->textures.opened, 2u);
     EXPECT_EQ(filesOf(folder / "large"), filesOf(folder / "small"));

@@ -47,6 +47,37 @@ TEST(ReusePack, GivesTheBlockAsItWasBuilt) {
     EXPECT_EQ(again->nodes[3].payload.checksum, built.nodes[3].payload.checksum);
 }
 
+TEST(ReusePack, KeepsWhatIsKnownOfTheSourceAndOfStuckNodes) {
+    BuiltBlock block;
+    block.nodes.resize(2);
+    block.nodes[1].level = 1;
+    block.nodes[1].stuck = true;
+    block.sourceTriangles = 123'456'789'012;
+    block.sourceAreaSquareMetres = 0.25;
+    const Bytes bytes = encodeTrailer({1, 2, block});
+    const Result<PackTrailer> read = parseTrailer(bytes, "pack");
+    ASSERT_TRUE(read) << lineOf(read);
+    EXPECT_EQ(read->block.sourceTriangles, 123'456'789'012u);
+    EXPECT_EQ(read->block.sourceAreaSquareMetres, 0.25);
+    EXPECT_FALSE(read->block.nodes[0].stuck);
+    EXPECT_TRUE(read->block.nodes[1].stuck);
+    EXPECT_EQ(read->block.nodes[1].level, 1);
+    block.sourceAreaSquareMetres = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(parseTrailer(encodeTrailer({1, 2, block}), "pack"));
+}
+
+TEST(TakePack, AsksForTheSettingsAndAWholeTrailerOnly) {
+    const TemporaryFolder folder;
+    (void)test::writePack(folder.path(), 0, test::tinyBlock(1));
+    EXPECT_TRUE(takePack(folder.path(), 0, kSettingsHash));
+    EXPECT_FALSE(takePack(folder.path(), 0, kSettingsHash + 1));
+    EXPECT_FALSE(takePack(folder.path(), 1, kSettingsHash));
+    Bytes bytes = test::readAll(folder.path() / packName(0));
+    bytes.pop_back();
+    test::overwrite(folder.path() / packName(0), bytes);
+    EXPECT_FALSE(takePack(folder.path(), 0, kSettingsHash));
+}
+
 TEST(ReusePack, GivesNothingForOtherSettingsSourceOrBlock) {
     const TemporaryFolder folder;
     (void)test::writePack(folder.path(), 0, test::tinyBlock(1));

@@ -32,6 +32,8 @@ SceneToml sample() {
     scene.info.sourceAreaSquareMetres = 1.0 / 3.0;
     scene.info.sourceHash = 0xfedcba9876543210;
     scene.info.buildSettingsHash = 1;
+    scene.info.desiredTriangles = 900;
+    scene.info.levelFactor = 4;
     scene.info.sourceFiles = {"a.obj", "b\\c.ply"};
     scene.info.reportLines = {"texture wall.jpg is missing"};
     scene.info.walks = {{{{0, 0, 0}, {1, 2, 3}}}, {}};
@@ -42,7 +44,7 @@ SceneToml sample() {
 TEST(SceneToml, IsWrittenForPeople) {
     const std::string expected =
         "# A Frontbench scene. Lengths are metres, hashes are XXH3.\n"
-        "format = 3\n"
+        "format = 4\n"
         "program = \"frontbench 1.2.3\"\n"
         "name = \"L\xc3\xbc"
         "beck \\\"old\\\" town\\u000a\"\n"
@@ -55,6 +57,8 @@ TEST(SceneToml, IsWrittenForPeople) {
         "source_area_m2 = 0.33333333333333331\n"
         "source_hash = \"fedcba9876543210\"\n"
         "build_settings_hash = \"0000000000000001\"\n"
+        "desired_triangles = 900\n"
+        "level_factor = 4\n"
         "hierarchy_hash = \"ffffffffffffffff\"  # of hierarchy.bin\n"
         "source_files = [\n  \"a.obj\",\n  \"b\\\\c.ply\",\n]\n"
         "report = [\n  \"texture wall.jpg is missing\",\n]  # what the import dropped or repaired\n"
@@ -71,6 +75,7 @@ bool same(const SceneInfo& a, const SceneInfo& b) {
            a.bounds.min == b.bounds.min && a.bounds.max == b.bounds.max &&
            a.sourceTriangles == b.sourceTriangles && a.sourceAreaSquareMetres == b.sourceAreaSquareMetres &&
            a.sourceHash == b.sourceHash && a.buildSettingsHash == b.buildSettingsHash &&
+           a.desiredTriangles == b.desiredTriangles && a.levelFactor == b.levelFactor &&
            a.sourceFiles == b.sourceFiles && a.reportLines == b.reportLines;
 }
 
