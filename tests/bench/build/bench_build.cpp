@@ -1,6 +1,6 @@
-// bench_build COMMAND [MESH...] [--blocks N] [--block-triangles N] [--samples N] [--rounds N] [--copies N]: what model
-// preparation costs and how near it stays to the source. Without a mesh the built-in city is prepared. For release
-// builds on a quiet machine.
+// bench_build COMMAND [MESH...] [--blocks N] [--block-triangles N] [--samples N] [--rounds N] [--copies N]:
+// what model preparation costs and how near it stays to the source. Without a mesh the built-in city is
+// prepared. For release builds on a quiet machine.
 #include <charconv>
 #include <cstdio>
 #include <string_view>
@@ -25,7 +25,7 @@ constexpr Command kCommands[] = {
 
 struct Option {
     const char* name;
-    std::size_t BenchOptions::* value;
+    std::size_t BenchOptions::*value;
 };
 
 constexpr Option kOptions[] = {{"--blocks", &BenchOptions::blocks},
@@ -46,7 +46,7 @@ bool takeArguments(int count, char** arguments, BenchOptions& options) {
             options.meshes.emplace_back(argument);
             continue;
         }
-        std::size_t BenchOptions::* value = nullptr;
+        std::size_t BenchOptions::*value = nullptr;
         for (const Option& option : kOptions) {
             if (argument == option.name) value = option.value;
         }

@@ -1,5 +1,5 @@
-// The commands of bench_build: each measures one side of model preparation and prints a table. All numbers but times
-// and memory are the same on every run.
+// The commands of bench_build: each measures one side of model preparation and prints a table. All numbers
+// but times and memory are the same on every run.
 #pragma once
 
 #include <filesystem>

@@ -25,14 +25,13 @@ class DeviationTable {
           samples_(samples),
           source_(surfaceOfSource(blocks, centre_)),
           sourceTree_(source_.triangles) {
-        for (const SourceBlock& source : sources) {
-            if (!source.mesh.triangles.empty()) single_.push_back(weldBlocks({&source, 1}, centre_));
-        }
+        for (const PreparedBlock& block : blocks)
+            single_.push_back(weldBlocks({&sources[block.source], 1}, centre_));
     }
 
     void print() {
-        std::printf("%5s %6s %-9s %9s %7s %8s %8s %8s %8s\n", "level", "nodes", "", "triangles", "share", "->l mean",
-                    "->l max", "->s mean", "->s max");
+        std::printf("%5s %6s %-9s %9s %7s %8s %8s %8s %8s\n", "level", "nodes", "", "triangles", "share",
+                    "->l mean", "->l max", "->s mean", "->s max");
         for (std::size_t l = 0; l < innerLevels(blocks_); ++l) printLevel(l);
         std::printf("%s\n", missed_ == 0 ? "no level deviates by more than a tenth more than plain"
                                          : "levels marked * deviate by more than a tenth more than plain");
@@ -52,12 +51,13 @@ class DeviationTable {
         std::printf("%13s", "");
         printSurface("by block", simplifyByBlock(drawn));
         const double mean = ours.mean() / plain.mean(), largest = ours.largest() / plain.largest();
-        const bool isMissed = shareOf(drawn.triangles.size()) <= kLargestShare && std::max(mean, largest) > kLargestRatio;
+        const bool isMissed =
+            shareOf(drawn.triangles.size()) <= kLargestShare && std::max(mean, largest) > kLargestRatio;
         missed_ += isMissed ? 1 : 0;
-        std::printf("%13s%-9s %9s %7s %8.3f %8.3f %8.3f %8.3f   worse way: mean %.3f, max %.3f%s\n", "", "ratio", "", "",
-                    ours.toLevel.mean / plain.toLevel.mean, ours.toLevel.largest / plain.toLevel.largest,
-                    ours.toSource.mean / plain.toSource.mean, ours.toSource.largest / plain.toSource.largest, mean,
-                    largest, isMissed ? " *" : "");
+        std::printf("%13s%-9s %9s %7s %8.3f %8.3f %8.3f %8.3f   worse way: mean %.3f, max %.3f%s\n", "",
+                    "ratio", "", "", ours.toLevel.mean / plain.toLevel.mean,
+                    ours.toLevel.largest / plain.toLevel.largest, ours.toSource.mean / plain.toSource.mean,
+                    ours.toSource.largest / plain.toSource.largest, mean, largest, isMissed ? " *" : "");
         tellDeviation({blocks_, centre_, scale_, l, source_, drawn}, ours);
     }
 
@@ -74,13 +74,15 @@ class DeviationTable {
         return d;
     }
 
-    // Each block to as many triangles as ours has there: what is left of the difference is not the share of each block.
+    // Each block to as many triangles as ours has there: what is left of the difference is not the share of
+    // each block.
     [[nodiscard]] std::vector<TriangleCorners> simplifyByBlock(const NodeSurface& drawn) const {
         std::vector<std::size_t> counts(blocks_.size(), 0);
         for (const TriangleOrigin& origin : drawn.origins) ++counts[origin.block];
         std::vector<TriangleCorners> result;
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
-            const std::vector<TriangleCorners> one = single_[b].cornersOf(simplifyPlainly(single_[b], counts[b]));
+            const std::vector<TriangleCorners> one =
+                single_[b].cornersOf(simplifyPlainly(single_[b], counts[b]));
             result.insert(result.end(), one.begin(), one.end());
         }
         return result;
@@ -109,9 +111,11 @@ Result<void> compareDeviation(const BenchOptions& options) {
     const SourceInfo& info = (*source)->info();
     std::printf("deviation: %s in %zu blocks, diagonal %.4g m; lengths in 1/10000 of it\n", info.name.c_str(),
                 blocks->size(), info.bounds.diagonal());
-    std::printf("(plain: one meshopt_simplify of the welded whole to as many triangles; by block: one for each block to "
-                "as many as it has there; %zu samples a direction)\n",
-                options.samples);
+    std::printf(
+        "(plain: one meshopt_simplify of the welded whole to as many triangles; by block: one for each block "
+        "to "
+        "as many as it has there; %zu samples a direction)\n",
+        options.samples);
     DeviationTable(*prepared, *blocks, info.bounds, options.samples).print();
     return {};
 }

@@ -52,8 +52,9 @@ Result<void> compareRatio(const BenchOptions& options) {
     std::printf("ratio: %s, %zu triangles in %zu blocks, one thread, medians of %zu rounds\n",
                 (*source)->info().name.c_str(), mesh.triangles(), (*source)->blockCount(), options.rounds);
     std::printf("%-22s %10s %14s %9s\n", "", "seconds", "triangles/s", "multiple");
-    std::printf("%-22s %10.4f %14.0f %9.2f   (%.4f to %.4f s)\n", "plain to a quarter", one, triangles / one, 1.0,
-                *std::min_element(plain.begin(), plain.end()), *std::max_element(plain.begin(), plain.end()));
+    std::printf("%-22s %10.4f %14.0f %9.2f   (%.4f to %.4f s)\n", "plain to a quarter", one, triangles / one,
+                1.0, *std::min_element(plain.begin(), plain.end()),
+                *std::max_element(plain.begin(), plain.end()));
     std::printf("%-22s %10.4f %14.0f %9.2f   (%.4f to %.4f s)\n", "whole build", build, triangles / build,
                 build / one, *std::min_element(whole.begin(), whole.end()),
                 *std::max_element(whole.begin(), whole.end()));

@@ -1,4 +1,5 @@
-// A grid of side x side copies of a source on the ground, each copy with blocks of its own; all show the same textures.
+// A grid of side x side copies of a source on the ground, each copy with blocks of its own; all show the same
+// textures.
 #pragma once
 
 #include <memory>
@@ -7,6 +8,7 @@
 
 namespace fb::bench {
 
-[[nodiscard]] std::unique_ptr<BlockSource> copySource(std::unique_ptr<BlockSource> original, std::size_t side);
+[[nodiscard]] std::unique_ptr<BlockSource> copySource(std::unique_ptr<BlockSource> original,
+                                                      std::size_t side);
 
 }  // namespace fb::bench

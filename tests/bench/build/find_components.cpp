@@ -23,13 +23,26 @@ double Components::longestSideMetres(std::uint32_t component) const {
     return box.size()[box.longestAxis()] * block_.mesh.grid.step;
 }
 
-std::size_t Components::drawnTriangles(std::uint32_t component, std::size_t level) const {
+std::vector<std::size_t> Components::drawnTriangles(std::size_t level) const {
     const BlockLevel& drawn = block_.levels[block_.levelFor(level)];
-    std::size_t count = 0;
+    std::vector<std::size_t> counts(ofPosition_.size(), 0);
     for (std::size_t i = 0; i < drawn.original.pieces.size(); ++i) {
-        for (const glm::uvec3& t : drawn.drawn(block_.mesh, i)) count += ofPosition_[t.x] == component ? 1 : 0;
+        for (const glm::uvec3& t : drawn.drawn(block_.mesh, i)) ++counts[ofPosition_[t.x]];
     }
-    return count;
+    return counts;
+}
+
+VanishedParts Components::vanishedAt(std::size_t level) const {
+    VanishedParts result;
+    const std::vector<std::size_t> drawn = drawnTriangles(level);
+    for (std::size_t c = 0; c < drawn.size(); ++c) {
+        if (triangles_[c] == 0) continue;
+        ++result.parts;
+        if (drawn[c] > 0) continue;
+        ++result.vanished;
+        result.triangles += triangles_[c];
+    }
+    return result;
 }
 
 }  // namespace fb::bench

@@ -6,6 +6,11 @@
 
 namespace fb::bench {
 
+struct VanishedParts {
+    std::size_t parts = 0, vanished = 0;
+    std::size_t triangles = 0;  // of the source, in the vanished ones
+};
+
 class Components {
   public:
     explicit Components(const PreparedBlock& block);
@@ -14,7 +19,9 @@ class Components {
     [[nodiscard]] std::uint32_t of(std::uint32_t position) const { return ofPosition_[position]; }
     [[nodiscard]] std::size_t sourceTriangles(std::uint32_t component) const { return triangles_[component]; }
     [[nodiscard]] double longestSideMetres(std::uint32_t component) const;
-    [[nodiscard]] std::size_t drawnTriangles(std::uint32_t component, std::size_t level) const;
+    // By component; of the level that stands for `level`.
+    [[nodiscard]] std::vector<std::size_t> drawnTriangles(std::size_t level) const;
+    [[nodiscard]] VanishedParts vanishedAt(std::size_t level) const;
 
   private:
     const PreparedBlock& block_;

@@ -25,7 +25,7 @@ struct Sample {
 };
 
 // t = a * blocks^exponent by least squares of the logarithms; 1 is linear.
-double fittedExponent(const std::vector<Sample>& samples, double Sample::* time) {
+double fittedExponent(const std::vector<Sample>& samples, double Sample::*time) {
     double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
     for (const Sample& sample : samples) {
         const double x = std::log(sample.blocks), y = std::log(sample.*time);
@@ -39,7 +39,7 @@ double fittedExponent(const std::vector<Sample>& samples, double Sample::* time)
 }
 
 // Of t = rate * blocks, the rate that makes relative differences least, and the largest of those.
-void tellLine(const char* what, const std::vector<Sample>& samples, double Sample::* time) {
+void tellLine(const char* what, const std::vector<Sample>& samples, double Sample::*time) {
     double sum = 0.0, squares = 0.0, worst = 0.0;
     for (const Sample& sample : samples) {
         const double slowness = sample.blocks / (sample.*time);
@@ -49,8 +49,8 @@ void tellLine(const char* what, const std::vector<Sample>& samples, double Sampl
     const double rate = sum / squares;
     for (const Sample& sample : samples)
         worst = std::max(worst, std::abs(rate * sample.blocks / (sample.*time) - 1.0));
-    std::printf("%s: %.3f s a block, no size off by more than %.1f %%; time ~ blocks^%.3f\n", what, rate, 100.0 * worst,
-                fittedExponent(samples, time));
+    std::printf("%s: %.3f s a block, no size off by more than %.1f %%; time ~ blocks^%.3f\n", what, rate,
+                100.0 * worst, fittedExponent(samples, time));
 }
 
 }  // namespace
@@ -59,8 +59,8 @@ Result<void> measureScaling(const BenchOptions& options) {
     const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
     std::printf("scaling: city of %zu triangles a block, %zu threads, best of %zu rounds, a process each\n",
                 options.blockTriangles, threads, options.rounds);
-    std::printf("%6s %10s %7s %9s %9s %12s %12s %12s %9s\n", "blocks", "triangles", "nodes", "wall s", "thread s",
-                "wall s/block", "thread/block", "triangles/s", "peak MiB");
+    std::printf("%6s %10s %7s %9s %9s %12s %12s %12s %9s\n", "blocks", "triangles", "nodes", "wall s",
+                "thread s", "wall s/block", "thread/block", "triangles/s", "peak MiB");
     std::vector<Sample> samples;
     for (std::size_t blocks = 1; blocks <= options.blocks; blocks *= 2) {
         ApartRun best;
@@ -75,8 +75,8 @@ Result<void> measureScaling(const BenchOptions& options) {
         samples.push_back({count, best.build.seconds, best.threadSeconds});
         std::printf("%6zu %10zu %7zu %9.2f %9.2f %12.3f %12.3f %12.0f %9.0f\n", blocks, best.build.triangles,
                     best.build.nodes, best.build.seconds, best.threadSeconds, best.build.seconds / count,
-                    best.threadSeconds / count, static_cast<double>(best.build.triangles) / best.build.seconds,
-                    best.peakMiB);
+                    best.threadSeconds / count,
+                    static_cast<double>(best.build.triangles) / best.build.seconds, best.peakMiB);
         std::fflush(stdout);
     }
     if (samples.size() < 2) return {};

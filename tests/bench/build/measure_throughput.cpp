@@ -22,7 +22,8 @@ Result<void> countTextures(const BlockSource& source, BuildNumbers& numbers) {
             const Result<StoredTexture> stored = store.open(texture);
             if (!stored) continue;
             // Pictures inside a block are its own.
-            const std::string key = texture.file.empty() ? block->name + '\n' + texture.name : texture.file.string();
+            const std::string key =
+                texture.file.empty() ? block->name + '\n' + texture.name : texture.file.string();
             texels[key] = static_cast<std::uint64_t>(stored->header.width) *
                           static_cast<std::uint64_t>(stored->header.height);
         }
@@ -56,16 +57,19 @@ Result<void> measureThroughput(const BenchOptions& options) {
     const std::size_t copies = options.copies * options.copies;
     const auto texels = static_cast<double>(build.texels), shown = texels * static_cast<double>(copies);
     const std::string name = options.meshes.empty() ? "city" : options.meshes.front().stem().string();
-    std::printf("throughput: %zu x %zu copies of %s, all phases, reading the files left out\n", options.copies,
-                options.copies, name.c_str());
+    std::printf("throughput: %zu x %zu copies of %s, all phases, reading the files left out\n",
+                options.copies, options.copies, name.c_str());
     std::printf("%zu blocks, %zu nodes, %zu triangles: %.2f s wall, %.2f s of threads, peak %.0f MiB\n",
                 build.blocks, build.nodes, build.triangles, build.seconds, run->threadSeconds, run->peakMiB);
     std::printf("%.0f triangles/s\n", static_cast<double>(build.triangles) / build.seconds);
     std::printf("%.0f texels/s (texels of the source's %zu textures times the copies that show them: %.4g)\n",
                 shown / build.seconds, build.textures, shown);
-    std::printf("textures: %zu opened, %zu texels decoded of %.0f in the source (each %.3f times), %zu started over\n",
-                build.store.opened, build.store.texelsDecoded, texels,
-                texels > 0.0 ? static_cast<double>(build.store.texelsDecoded) / texels : 0.0, build.store.startedOver);
+    std::printf(
+        "textures: %zu opened, %zu texels decoded of %.0f in the source (each %.3f times), %zu started "
+        "over\n",
+        build.store.opened, build.store.texelsDecoded, texels,
+        texels > 0.0 ? static_cast<double>(build.store.texelsDecoded) / texels : 0.0,
+        build.store.startedOver);
     std::printf("phases, thread seconds:");
     for (const auto& [phase, seconds] : kPhases) std::printf(" %s %.2f", phase, build.phases.*seconds);
     std::printf("\n");

@@ -7,12 +7,14 @@ namespace fb::bench {
 
 struct NamedPhase {
     const char* name;
-    double BuildPhases::* seconds;
+    double BuildPhases::*seconds;
 };
 
 inline constexpr NamedPhase kPhases[] = {
-    {"load", &BuildPhases::load},     {"textures", &BuildPhases::textures}, {"simplify", &BuildPhases::simplify},
-    {"errors", &BuildPhases::errors}, {"skirts", &BuildPhases::skirts},     {"dress", &BuildPhases::dress},
-    {"atlas", &BuildPhases::atlas},   {"encode", &BuildPhases::encode},     {"write", &BuildPhases::write}};
+    {"load", &BuildPhases::load},         {"textures", &BuildPhases::textures},
+    {"simplify", &BuildPhases::simplify}, {"errors", &BuildPhases::errors},
+    {"skirts", &BuildPhases::skirts},     {"dress", &BuildPhases::dress},
+    {"atlas", &BuildPhases::atlas},       {"encode", &BuildPhases::encode},
+    {"write", &BuildPhases::write}};
 
 }  // namespace fb::bench

@@ -9,7 +9,8 @@
 namespace fb::bench {
 
 // Of blocks of `options.blockTriangles` triangles and the default city's texels.
-[[nodiscard]] Result<std::unique_ptr<BlockSource>> makeCityOf(std::size_t blocks, const BenchOptions& options);
+[[nodiscard]] Result<std::unique_ptr<BlockSource>> makeCityOf(std::size_t blocks,
+                                                              const BenchOptions& options);
 
 [[nodiscard]] Result<std::unique_ptr<BlockSource>> openSource(const BenchOptions& options);
 

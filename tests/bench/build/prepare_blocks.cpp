@@ -34,10 +34,11 @@ Result<std::vector<PreparedBlock>> prepareBlocks(const std::vector<SourceBlock>&
                                                  const BuildSettings& settings) {
     TextureStore store(kTextureCacheBytes);
     std::vector<PreparedBlock> result;
-    for (const SourceBlock& source : blocks) {
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const SourceBlock& source = blocks[i];
         if (Result<void> sound = checkBlock(source); !sound) return passOn(sound);
         QuantisedBlock quantised = quantiseBlock(source, decodeTextures(source, store));
-        PreparedBlock block{source.name, std::move(quantised.mesh), {}};
+        PreparedBlock block{source.name, i, std::move(quantised.mesh), {}};
         if (quantised.triangles.empty()) continue;
         Level root;
         root.triangles = std::move(quantised.triangles);

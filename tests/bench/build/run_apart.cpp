@@ -10,7 +10,8 @@
 namespace fb::bench {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<BuildNumbers> && sizeof(BuildNumbers) < 4096);  // one write, not in parts
+static_assert(std::is_trivially_copyable_v<BuildNumbers> &&
+              sizeof(BuildNumbers) < 4096);  // one write, not in parts
 
 double secondsOf(const timeval& time) {
     return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);

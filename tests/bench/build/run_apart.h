@@ -1,5 +1,5 @@
-// Runs work in a forked child, so that its peak of resident memory and its processor time are its own. The caller has
-// no threads yet and holds little memory: a child starts from what its parent has.
+// Runs work in a forked child, so that its peak of resident memory and its processor time are its own. The
+// caller has no threads yet and holds little memory: a child starts from what its parent has.
 #pragma once
 
 #include <cstdint>

@@ -11,14 +11,16 @@ namespace fb::bench {
 namespace {
 
 double areaOf(const TriangleCorners& t) {
-    return 0.5 * glm::length(glm::cross(glm::dvec3(t[1]) - glm::dvec3(t[0]), glm::dvec3(t[2]) - glm::dvec3(t[0])));
+    return 0.5 *
+           glm::length(glm::cross(glm::dvec3(t[1]) - glm::dvec3(t[0]), glm::dvec3(t[2]) - glm::dvec3(t[0])));
 }
 
 glm::vec3 pointOn(const TriangleCorners& t, Random& random) {
     const double root = std::sqrt(random.uniform());
     const double share = random.uniform();
     const glm::dvec3 weights(1.0 - root, root * (1.0 - share), root * share);
-    return glm::vec3(weights.x * glm::dvec3(t[0]) + weights.y * glm::dvec3(t[1]) + weights.z * glm::dvec3(t[2]));
+    return glm::vec3(weights.x * glm::dvec3(t[0]) + weights.y * glm::dvec3(t[1]) +
+                     weights.z * glm::dvec3(t[2]));
 }
 
 }  // namespace
@@ -34,7 +36,8 @@ SampledDistance sampleDistance(std::span<const TriangleCorners> from, const Tria
     std::uint32_t at = 0, near = 0;
     double upToHere = areaOf(from[0]);
     for (std::size_t i = 0; i < samples; ++i) {
-        const double wanted = area * (static_cast<double>(i) + random.uniform()) / static_cast<double>(samples);
+        const double wanted =
+            area * (static_cast<double>(i) + random.uniform()) / static_cast<double>(samples);
         while (upToHere < wanted && at + 1 < from.size()) upToHere += areaOf(from[++at]);
         const glm::vec3 p = pointOn(from[at], random);
         // The last answer bounds the search: the next point is often close.

@@ -1,5 +1,5 @@
-// The distance from one surface to another at points spread evenly over its area: mean, largest and where that is.
-// Samples only: the largest one lies below the Hausdorff distance. The same points on every run.
+// The distance from one surface to another at points spread evenly over its area: mean, largest and where
+// that is. Samples only: the largest one lies below the Hausdorff distance. The same points on every run.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@ namespace fb::bench {
 
 struct SampledDistance {
     double mean = 0.0, largest = 0.0;
-    glm::vec3 worst{0.0f};                 // a point of `from`
-    std::uint32_t from = 0, to = 0;        // the triangles there
+    glm::vec3 worst{0.0f};           // a point of `from`
+    std::uint32_t from = 0, to = 0;  // the triangles there
 };
 
 // `from` has some area, `to` some triangle.

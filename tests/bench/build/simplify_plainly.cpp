@@ -44,8 +44,7 @@ std::vector<std::uint32_t> simplifyPlainly(const WeldedMesh& mesh, std::size_t t
     std::vector<std::uint32_t> result(mesh.indices.size());
     const std::size_t target = std::min(triangles * 3, mesh.indices.size());
     result.resize(meshopt_simplify(result.data(), mesh.indices.data(), mesh.indices.size(), &mesh.points[0].x,
-                                   mesh.points.size(), sizeof(glm::vec3), target, kNoErrorLimit, 0,
-                                   nullptr));
+                                   mesh.points.size(), sizeof(glm::vec3), target, kNoErrorLimit, 0, nullptr));
     return result;
 }
 

@@ -1,5 +1,5 @@
-// The yardstick of the benchmarks: all blocks welded by position into one mesh, and one call of meshoptimizer, without
-// attributes, seams, cuts or locks.
+// The yardstick of the benchmarks: all blocks welded by position into one mesh, and one call of
+// meshoptimizer, without attributes, seams, cuts or locks.
 #pragma once
 
 #include "build/triangle_tree.h"

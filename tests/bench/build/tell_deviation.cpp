@@ -38,7 +38,7 @@ void tellNode(const MeasuredLevel& measured, const TriangleOrigin& origin) {
 void tellPart(const MeasuredLevel& measured, const TriangleOrigin& from) {
     const Components components(measured.blocks[from.block]);
     const std::uint32_t part = components.of(from.positions.x);
-    const std::size_t left = components.drawnTriangles(part, measured.level);
+    const std::size_t left = components.drawnTriangles(measured.level)[part];
     std::printf("part of %zu triangles, %.1f long, %s; ", components.sourceTriangles(part),
                 measured.scale * components.longestSideMetres(part),
                 left == 0 ? "vanished" : (std::to_string(left) + " left").c_str());
@@ -49,9 +49,22 @@ void tellPlace(const MeasuredLevel& measured, const SampledDistance& d) {
     std::printf("; at (%.6g, %.6g, %.6g)\n", at.x, at.y, at.z);
 }
 
+void tellVanished(const MeasuredLevel& measured) {
+    VanishedParts all;
+    for (const PreparedBlock& block : measured.blocks) {
+        const VanishedParts here = Components(block).vanishedAt(measured.level);
+        all.parts += here.parts;
+        all.vanished += here.vanished;
+        all.triangles += here.triangles;
+    }
+    std::printf("        vanished: %zu of %zu connected parts, with %zu triangles of the source\n",
+                all.vanished, all.parts, all.triangles);
+}
+
 }  // namespace
 
 void tellDeviation(const MeasuredLevel& measured, const TwoSided& distances) {
+    tellVanished(measured);
     std::printf("        worst -> level:  ");
     tellPart(measured, measured.source.origins[distances.toLevel.from]);
     tellNode(measured, measured.drawn.origins[distances.toLevel.to]);

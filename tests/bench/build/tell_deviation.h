@@ -1,5 +1,6 @@
-// Says where a level deviates most, so that the cause can be looked for: the node, whether it was welded, clustered or
-// stuck, whether the triangle there touches a cut or another block, and what became of that part of the source.
+// Says where a level deviates most, so that the cause can be looked for: the node, whether it was welded,
+// clustered or stuck, whether the triangle there touches a cut or another block, and what became of that part
+// of the source.
 #pragma once
 
 #include "prepare_blocks.h"

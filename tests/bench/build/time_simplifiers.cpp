@@ -66,8 +66,8 @@ Result<void> timeOne(const Subject& subject, const char* name, const BuildSettin
         std::printf("%-14s %5zu %9zu %9zu %9zu %6zu %11.0f %8.2f %8.3f %8.2f %8.3f %8.2f\n", name, l,
                     row.triangles, row.aim, row.reached, row.stuckNodes,
                     static_cast<double>(row.triangles) / row.seconds, scale * row.boundMetres,
-                    scale * sampled.toLevel.mean, scale * sampled.toLevel.largest, scale * sampled.toSource.mean,
-                    scale * sampled.toSource.largest);
+                    scale * sampled.toLevel.mean, scale * sampled.toLevel.largest,
+                    scale * sampled.toSource.mean, scale * sampled.toSource.largest);
     }
     return {};
 }
@@ -81,12 +81,13 @@ Result<void> timeSimplifiers(const BenchOptions& options) {
     if (!blocks) return passOn(blocks);
     const SourceInfo& info = (*source)->info();
     const Subject subject{*blocks, info.bounds.centre(), info.bounds.diagonal()};
-    std::printf("simplifiers: %s, %zu blocks, diagonal %.4g m; distances in 1/10000 of it\n", info.name.c_str(),
-                blocks->size(), subject.diagonalMetres);
+    std::printf("simplifiers: %s, %zu blocks, diagonal %.4g m; distances in 1/10000 of it\n",
+                info.name.c_str(), blocks->size(), subject.diagonalMetres);
     std::printf("(bound: largest of the nodes' own errors; -> level, -> source: %zu samples a direction)\n",
                 options.samples);
-    std::printf("%-14s %5s %9s %9s %9s %6s %11s %8s %8s %8s %8s %8s\n", "simplifier", "level", "triangles", "aim",
-                "reached", "stuck", "triangles/s", "bound", "->l mean", "->l max", "->s mean", "->s max");
+    std::printf("%-14s %5s %9s %9s %9s %6s %11s %8s %8s %8s %8s %8s\n", "simplifier", "level", "triangles",
+                "aim", "reached", "stuck", "triangles/s", "bound", "->l mean", "->l max", "->s mean",
+                "->s max");
     BuildSettings settings;
     settings.simplifier = Simplifier::meshoptimizer;
     if (Result<void> done = timeOne(subject, "meshoptimizer", settings, options); !done) return done;
