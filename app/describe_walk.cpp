@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "settings/knob_table.h"
+
 namespace fb {
 namespace {
 
