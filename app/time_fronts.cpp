@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include "app/guarded_child.h"
 #include "base/clock.h"
 
 namespace fb {
@@ -70,6 +71,7 @@ void countCosts(const Workbench& w, const TimedFronts& fronts, std::vector<Front
 }
 
 Result<double> timeFront(Workbench& w, const View& view, std::span<const NodeId> front, bool plain) {
+    if (stopWanted()) return failure({}, {}, "stopped");
     ActiveEffects effects = w.effects;
     if (plain) effects[Effect::texturing] = false;
     const DrawInput input{w.scene->hierarchy, front, view, w.settings.draw, effects, glm::vec3(w.scene->info.upVector())};
@@ -94,9 +96,7 @@ Result<std::vector<FrontTimes>> timeFronts(Workbench& w, const TimedFronts& fron
         if (round >= plan.leastRounds && seconds >= plan.enoughSeconds) break;
         for (std::size_t i = 0; i < times.size(); ++i) {
             const double part = static_cast<double>(i) / static_cast<double>(times.size());
-            if (progress && !progress("timing", (round + 1 + part) / (plan.mostRounds + 1))) {
-                return failure({}, {}, "stopped");
-            }
+            if (progress) static_cast<void>(progress("timing", (round + 1 + part) / (plan.mostRounds + 1)));
             const TimedFronts::Front& front = fronts.fronts[i];
             const View& view = fronts.views[front.view];
             if (plan.withoutTextures) {

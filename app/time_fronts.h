@@ -32,14 +32,14 @@ struct TimingPlan {
 [[nodiscard]] std::vector<NodeId> repeated(const Hierarchy& hierarchy, const std::vector<NodeId>& nodes);
 
 // Draws all fronts in rounds, after one round that is not counted. Costs are those of the settings' c_textured. Errors:
-// the progress says stop; a front cannot be drawn; its time does not arrive.
+// Ctrl-C; a front cannot be drawn; its time does not arrive.
 [[nodiscard]] Result<std::vector<FrontTimes>> timeFronts(Workbench& workbench, const TimedFronts& fronts,
                                                          const TimingPlan& plan, const Progress& progress = {});
 
 // Sums up the fronts' costs anew, for another c_textured.
 void countCosts(const Workbench& workbench, const TimedFronts& fronts, std::vector<FrontTimes>& times);
 
-// One front once, without textures where `plain`; in ms.
+// One front once, without textures where `plain`; in ms. Errors as above.
 [[nodiscard]] Result<double> timeFront(Workbench& workbench, const View& view, std::span<const NodeId> front, bool plain);
 
 }  // namespace fb
