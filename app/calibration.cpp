@@ -10,6 +10,7 @@ namespace fb {
 namespace {
 
 constexpr TimingPlan kRounds{9, 25, 20.0, false};
+constexpr double kQuiet = 1.15;  // disturbance of a machine that does nothing else: below
 
 std::string number(const char* format, double value) {
     char text[64];
@@ -93,6 +94,13 @@ Result<void> measureDevice(Workbench& w, glm::ivec2 size, const Progress& progre
     taking.takeMeasured("control.v_time_start", fitVTime(*times), "more triangles did not take more time");
     taking.takeMeasured("control.overhead", fitOverhead(*times), "nothing was drawn");
 
+    const double disturbed = disturbance(*times);
+    calibration.facts.push_back("disturbance: the median time of a picture is " + number("%.2f", disturbed) +
+                                " times the tenth percentile");
+    if (disturbed > kQuiet) {
+        calibration.warning = "the machine was busy: the median time of a picture is " + number("%.2f", disturbed) +
+                              " times its tenth percentile; times of an idle machine may lie below the uncertainties";
+    }
     std::uint64_t most = 0;
     for (const FrontTimes& front : *times) most = std::max(most, front.texturedTriangles + front.untexturedTriangles);
     calibration.facts.push_back("device: " + w.renderer->deviceName());

@@ -21,6 +21,7 @@ struct CalibratedConstant {
 struct Calibration {
     std::vector<CalibratedConstant> constants;  // c_textured, c_memory, v_time_start, overhead
     std::vector<std::string> facts;             // device, picture, scene, counts
+    std::string warning;                        // the times are not to be trusted far; empty: they are
 };
 
 // Measures with an opened scene and sets the constants in the workbench's settings. Errors: as makeCalibrationFronts().

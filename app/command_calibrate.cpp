@@ -109,6 +109,7 @@ Result<void> runCalibrate(const CalibrateCommand& command) {
     if (!calibration) return passOn(calibration);
     if (stopWanted()) return failure({}, {}, "stopped");
     if (Result<void> saved = savePreset(makePreset(command, w, *calibration, *file), *file); !saved) return saved;
+    if (!calibration->warning.empty()) std::fprintf(stderr, "note: %s\n", calibration->warning.c_str());
     printTable(*calibration, from->name);
     std::printf("saved %s\n", file->string().c_str());
     return {};

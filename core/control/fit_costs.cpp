@@ -20,16 +20,20 @@ struct Point {
     double x, y;
 };
 
-// The tenth percentile, between the two values next to it.
-double quickest(const std::vector<double>& times, const Rounds& rounds) {
-    std::vector<double> sorted;
-    sorted.reserve(rounds.size());
-    for (std::uint32_t round : rounds) sorted.push_back(times[round]);
-    std::ranges::sort(sorted);
-    const double place = 0.1 * static_cast<double>(sorted.size() - 1);
+// The value below which `part` of them lie, between the two next to it.
+double quantile(std::vector<double> values, double part) {
+    std::ranges::sort(values);
+    const double place = part * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return std::lerp(values[below], values[above], place - static_cast<double>(below));
+}
+
+double quickest(const std::vector<double>& times, const Rounds& rounds) {
+    std::vector<double> chosen;
+    chosen.reserve(rounds.size());
+    for (std::uint32_t round : rounds) chosen.push_back(times[round]);
+    return quantile(std::move(chosen), 0.1);
 }
 
 // Least squares with one slope for all views and a constant for each.
@@ -110,6 +114,14 @@ std::optional<Estimate> fitVTime(std::span<const FrontTimes> fronts) {
 std::optional<Estimate> fitCTextured(std::span<const FrontTimes> fronts) {
     if (fronts.empty() || fronts[0].plainMs.empty()) return std::nullopt;
     return estimate(fronts[0].ms.size(), [&](const Rounds& rounds) { return fittedCTextured(fronts, rounds); });
+}
+
+double disturbance(std::span<const FrontTimes> fronts) {
+    std::vector<double> ratios;
+    for (const FrontTimes& front : fronts) {
+        if (!front.ms.empty()) ratios.push_back(quantile(front.ms, 0.5) / std::max(quantile(front.ms, 0.1), 1e-9));
+    }
+    return ratios.empty() ? 1.0 : quantile(std::move(ratios), 0.5);
 }
 
 }  // namespace fb

@@ -37,4 +37,8 @@ struct Estimate {
 // one of the two times is not above 0.
 [[nodiscard]] std::optional<Estimate> fitCTextured(std::span<const FrontTimes> fronts);
 
+// How much else the machine did: a front's median time over its tenth percentile, and of all fronts the median. 1 on a
+// machine that does nothing else. What comes and goes within the rounds is in the uncertainties; what stays is not.
+[[nodiscard]] double disturbance(std::span<const FrontTimes> fronts);
+
 }  // namespace fb

@@ -86,6 +86,16 @@ TEST(FitCosts, SameTimesGiveTheSameUncertainty) {
     EXPECT_EQ(fitVTime(fronts)->plusMinus, fitVTime(fronts)->plusMinus);
 }
 
+TEST(FitCosts, TellsABusyMachineFromAnIdleOne) {
+    EXPECT_EQ(disturbance({}), 1.0);
+    std::vector<FrontTimes> fronts = knownFronts();
+    EXPECT_EQ(disturbance(fronts), 1.0);
+    for (FrontTimes& f : fronts) {
+        for (std::size_t r = 0; r < kRounds; ++r) f.ms[r] *= r % 4 == 0 ? 1.0 : 2.0;
+    }
+    EXPECT_EQ(disturbance(fronts), 2.0);
+}
+
 TEST(FitCosts, SaysNothingWhereNothingCanBeTold) {
     EXPECT_FALSE(fitOverhead({}));
     EXPECT_FALSE(fitVTime({}));
