@@ -139,7 +139,7 @@ TEST_F(Calibrate, TheRealClockMeasuresThisMachine) {
 TEST_F(Calibrate, WrongInputIsOneLine) {
     const std::string model = scene() + " --clock model";
     expectOneLine(calibrate("/nowhere/s.fbscene --clock model", "x.toml"), 1, "/nowhere/s.fbscene");
-    expectOneLine(calibrate(model, "missing/x.toml"), 1, path("missing"));
+    expectOneLine(calibrate(model, "missing/x.toml"), 1, path("missing") + ": there is no such folder");
     expectOneLine(calibrate(model, "x.txt"), 2, "x.txt");
     expectOneLine(calibrate(model, ".toml"), 2, ".toml");
     expectOneLine(calibrate(scene() + " --clock sun", "x.toml"), 2, "sun");
