@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "app/commands.h"
+#include "app/counted.h"
 #include "app/guarded_child.h"
 #include "app/option_text.h"
 #include "app/progress_display.h"
@@ -80,10 +81,6 @@ Result<void> checkInputs(const BuildCommand& command) {
         if (given) return usageFailure(option, "needs --terrain");
     }
     return {};
-}
-
-std::string counted(std::uint64_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 void tell(const SourceInfo& info, const BuildReport& report, const std::filesystem::path& folder) {
