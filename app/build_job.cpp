@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "app/counted.h"
 #include "app/guarded_child.h"
 #include "app/progress_display.h"
 #include "app/ranks.h"
@@ -15,10 +16,6 @@
 
 namespace fb {
 namespace {
-
-std::string counted(std::uint64_t count, const std::string& what) {
-    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 void tellNotes(const std::vector<std::string>& lines) {
     for (const std::string& line : lines) std::fprintf(stderr, "note: %s\n", line.c_str());

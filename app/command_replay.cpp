@@ -7,11 +7,10 @@
 #include "app/fault_log.h"
 #include "app/frame.h"
 #include "app/guarded_child.h"
+#include "app/headless.h"
 #include "app/option_text.h"
 #include "app/save_picture.h"
 #include "base/clock.h"
-#include "base/program_folder.h"
-#include "draw/offscreen_context.h"
 #include "measure/camera_path.h"
 #include "settings/knob_table.h"
 #include "settings/preset.h"
@@ -45,32 +44,17 @@ Result<void> readSettings(const ReplayCommand& command, Settings& settings) {
 Result<void> prepare(const ReplayCommand& command, Replay& replay) {
     Workbench& w = replay.workbench;
     if (Result<void> read = readSettings(command, w.settings); !read) return read;
-    if (command.clock != "real" && command.clock != "model") {
-        return usageFailure("--clock " + command.clock, "is not a clock", "real or model");
-    }
-    w.clock = command.clock == "real" ? ClockKind::real : ClockKind::model;
+    Result<ClockKind> clock = parseClock(command.clock);
+    if (!clock) return passOn(clock);
+    w.clock = *clock;
     w.onFault = [&replay](const Error& fault) { replay.faults.hear(fault); };
     Result<glm::ivec2> size = parseSize(command.size);
     if (!size) return passOn(size);
     replay.size = *size;
     if (command.out.empty()) return usageFailure("--out", "must name a folder");
     if (Result<void> made = makeFolder(command.out); !made) return made;
-
-    std::filesystem::path folder = command.scene;
-    if (folder.empty()) {
-        Result<std::filesystem::path> city = builtInCity(ProgressStyle::automatic);
-        if (!city) return passOn(city);
-        folder = *city;
-    }
-    if (w.clock == ClockKind::real || command.screenshots > 0) {
-        auto context = OffscreenContext::create();
-        if (!context) return passOn(context);
-        replay.context = std::move(*context);
-        auto renderer = Renderer::create(programFolder() / "shaders");
-        if (!renderer) return passOn(renderer);
-        w.renderer = std::move(*renderer);
-    }
-    if (Result<void> opened = openScene(w, folder); !opened) return opened;
+    Result<void> opened = openHeadless(w, replay.context, command.scene, command.screenshots > 0);
+    if (!opened) return opened;
     Result<CameraPath> path = loadPath(command.path, w.scene->info);
     if (!path) return passOn(path);
     replay.path = std::move(*path);

@@ -71,6 +71,16 @@ struct ReplayCommand {
 };
 [[nodiscard]] Result<void> runReplay(const ReplayCommand& command);
 
+struct CalibrateCommand {
+    std::filesystem::path scene;  // empty: the built-in city
+    std::string from = "default";
+    std::string clock = "real";
+    std::string size = "1280x720";
+    std::vector<std::string> sets;
+    std::filesystem::path out;  // empty: `calibrated` among the user's presets
+};
+[[nodiscard]] Result<void> runCalibrate(const CalibrateCommand& command);
+
 struct OpenCommand {
     std::vector<std::filesystem::path> inputs;  // one scene, or meshes to build; empty: the built-in city
     std::string preset = "default";

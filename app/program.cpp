@@ -14,6 +14,7 @@ struct CommandLine {
     BuildCommand build;
     CityCommand city;
     ReplayCommand replay;
+    CalibrateCommand calibrate;
     OpenCommand open;
     std::filesystem::path scene;
     bool json = false;
@@ -106,6 +107,18 @@ void addReplay(CLI::App& program, CommandLine& line) {
     command->callback([&line] { line.run = [&line] { return runReplay(line.replay); }; });
 }
 
+void addCalibrate(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("calibrate", "Measure the constants of the cost model and save them as a preset");
+    CalibrateCommand& c = line.calibrate;
+    command->add_option("SCENE", c.scene, "A scene's folder; the built-in city when left out");
+    command->add_option("--out", c.out, "The preset's file, NAME.toml; left out: `calibrated` among your presets");
+    command->add_option("--clock", c.clock, "real: times of drawing on this machine; model: those of the simulated device");
+    command->add_option("--size", c.size, "Size of the picture, as in 1280x720");
+    command->add_option("--from", c.from, "Preset (name or .toml file) that gives all other knobs");
+    command->add_option("--set", c.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
+    command->callback([&line] { line.run = [&line] { return runCalibrate(line.calibrate); }; });
+}
+
 void addKnobs(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("knobs", "Every knob: path, symbol, unit, default, range, equation, help");
     command->add_flag("--json", line.json, "As JSON");
@@ -154,6 +167,7 @@ int runProgram(int argumentCount, char** arguments) {
     addCity(program, line);
     addSceneCommands(program, line);
     addReplay(program, line);
+    addCalibrate(program, line);
     addKnobs(program, line);
     addPresets(program, line);
     line.run = [&line] { return runWindow(line.open); };

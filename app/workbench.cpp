@@ -22,6 +22,20 @@ void closeScene(Workbench& w) {
     w.scene.reset();
 }
 
+namespace {
+
+AppliedSettings settingsToFollow(const Settings& settings) {
+    return {settings.select.cTextured, settings.select.hystStart, settings.control.vTimeStartMs,
+            settings.control.overheadMs};
+}
+
+// From what opening the scene measured and what the knobs say instead.
+void restartControl(Workbench& w) {
+    w.control = startControl(w.settings.control, w.control.calibratedMs, w.control.measuredOverheadMs);
+}
+
+}  // namespace
+
 Result<void> openScene(Workbench& w, const std::filesystem::path& folder) {
     closeScene(w);
     Result<Scene> opened = openScene(folder);
@@ -45,11 +59,11 @@ Result<void> openScene(Workbench& w, const std::filesystem::path& folder) {
 void restartWalk(Workbench& w) {
     if (w.renderer && w.frame > 0) waitForTimes(w);  // or they would be taken for the new walk's
     w.selectState.reset(w.scene->hierarchy, w.settings.select);
-    w.applied = {w.settings.select.cTextured, w.settings.select.hystStart};
+    w.applied = settingsToFollow(w.settings);
     w.inFront.assign(w.scene->hierarchy.size(), 0);
     w.selection.clear();
     w.plan.everythingLoaded = false;
-    w.control = startControl(w.control.calibratedMs, w.control.overheadMs);
+    restartControl(w);
     w.history.clear();
     w.frame = 0;
     w.nowSeconds = 0.0;
@@ -73,7 +87,9 @@ void followSettings(Workbench& w) {
         rescaleCost(w.control, after / before);
     }
     if (now.hystStart != w.applied.hystStart) w.selectState.reset(w.scene->hierarchy, now);
-    w.applied = {now.cTextured, now.hystStart};
+    const AppliedSettings follow = settingsToFollow(w.settings);
+    if (follow.vTimeStartMs != w.applied.vTimeStartMs || follow.overheadMs != w.applied.overheadMs) restartControl(w);
+    w.applied = follow;
 }
 
 double nearMetres(const Workbench& w) {

@@ -24,7 +24,7 @@ enum class ClockKind { real, model };
 
 // Settings whose change asks for more than to be read: as they were in the frame before.
 struct AppliedSettings {
-    double cTextured = 0.0, hystStart = 0.0;
+    double cTextured = 0.0, hystStart = 0.0, vTimeStartMs = 0.0, overheadMs = 0.0;
 };
 
 struct Workbench {
@@ -72,9 +72,11 @@ void closeScene(Workbench& workbench);
 
 // Measures the fixed overhead and the start value of v_time by drawing (real clock) or from the simulated device.
 void calibrate(Workbench& workbench);
+// The same by the simulated device alone.
+void calibrateByModel(Workbench& workbench);
 
 // Before a frame: what follows from settings that were changed since the one before. Another c_textured is another unit of
-// cost, in which v_time is converted; another h_0 starts all counters again.
+// cost, in which v_time is converted; another h_0 starts all counters again, another v_time_start or overhead the feedback.
 void followSettings(Workbench& workbench);
 
 // The camera's near plane: the knob's, or a small part of a small scene.

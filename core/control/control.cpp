@@ -55,7 +55,16 @@ double shareMs(const ControlState& state, const ControlSettings& settings) {
 ControlState startControl(double vTimeMs, double overheadMs) {
     ControlState state;
     state.vTimeMs = state.calibratedMs = vTimeMs;
-    state.overheadMs = overheadMs;
+    state.overheadMs = state.measuredOverheadMs = overheadMs;
+    return state;
+}
+
+ControlState startControl(const ControlSettings& settings, double measuredVTimeMs, double measuredOverheadMs) {
+    ControlState state = startControl(measuredVTimeMs, measuredOverheadMs);
+    if (settings.vTimeStartMs > 0.0) {
+        state.vTimeMs = std::clamp(settings.vTimeStartMs, measuredVTimeMs / kVTimeRange, measuredVTimeMs * kVTimeRange);
+    }
+    if (settings.overheadMs > 0.0) state.overheadMs = settings.overheadMs;
     return state;
 }
 

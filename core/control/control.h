@@ -12,7 +12,8 @@ namespace fb {
 struct ControlState {
     double vTimeMs = 1e-4;        // ms per unit of cost
     double calibratedMs = 1e-4;   // start value; v_time stays within [1/8, 8] times this
-    double overheadMs = 0.0;      // O: measured frame with an empty front
+    double overheadMs = 0.0;      // O: frame with an empty front
+    double measuredOverheadMs = 0.0;  // what O is where no knob sets it
     double shareScale = 1.0;      // share time of the roots as a multiple of T - O, moved by the second loop
     bool infeasible = false;      // the roots alone take longer than the target (algorithms 5, case 17)
     std::array<double, 3> recentMarginal{};  // last measurements of (actual - O) / cost, for the median gate
@@ -35,6 +36,9 @@ struct FrameFeatures {
 
 // Start: v_time calibrated, share = T - O.
 [[nodiscard]] ControlState startControl(double vTimeMs, double overheadMs);
+// The same, but for what the knobs v_time_start and overhead set. v_time keeps to [1/8, 8] times what was measured: a
+// start value from another machine must not hold it where the feedback cannot follow.
+[[nodiscard]] ControlState startControl(const ControlSettings& settings, double measuredVTimeMs, double measuredOverheadMs);
 [[nodiscard]] double estimateMs(const ControlState& state, double frontCost);
 
 // Another unit of cost: what was one is now `ratio` of them.

@@ -18,11 +18,15 @@ double seededNoise(std::int64_t seed, std::uint64_t frame) {
 
 }  // namespace
 
-double modelFrameMs(const ModelSettings& settings, const FrameWork& work, std::uint64_t frame) {
+double modelDrawMs(const ModelSettings& settings, const FrameWork& work) {
     const double drawUs = settings.texturedUs * static_cast<double>(work.texturedTriangles) +
                           settings.untexturedUs * static_cast<double>(work.untexturedTriangles) +
                           settings.nodeUs * static_cast<double>(work.nodes);
-    const double ms = settings.overheadMs + drawUs / 1000.0;
+    return drawUs / 1000.0;
+}
+
+double modelFrameMs(const ModelSettings& settings, const FrameWork& work, std::uint64_t frame) {
+    const double ms = settings.overheadMs + modelDrawMs(settings, work);
     if (settings.noisePct == 0.0) return ms;
     return std::max(0.0, ms * (1.0 + settings.noisePct / 100.0 * seededNoise(settings.seed, frame)));
 }

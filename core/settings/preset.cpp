@@ -60,6 +60,14 @@ Result<void> checkRules(const Settings& settings, const toml::table& root, std::
                          culprit ? std::string(name) + ": " + placeOf(*culprit) : std::string(name));
 }
 
+// TOML allows no control characters in a text of one line or a comment.
+std::string onOneLine(std::string text) {
+    for (char& c : text) {
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+    }
+    return text;
+}
+
 }  // namespace
 
 Result<Preset> parsePreset(std::string_view text, std::string_view name) {
@@ -94,12 +102,13 @@ Result<Preset> parsePreset(std::string_view text, std::string_view name) {
 
 std::string presetToml(const Preset& preset) {
     const Settings defaults;
-    std::string about;
-    for (char c : preset.about) {
-        if (c == '"' || c == '\\') about += '\\';
-        about += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    std::string text = "about = \"";
+    for (char c : onOneLine(preset.about)) {
+        if (c == '"' || c == '\\') text += '\\';
+        text += c;
     }
-    std::string text = "about = \"" + about + "\"\n";
+    text += "\"\n";
+    for (const std::string& note : preset.notes) text += "# " + onOneLine(note) + "\n";
     for (std::string_view group : knobGroups()) {
         bool headed = false;
         for (const Knob& knob : knobs()) {

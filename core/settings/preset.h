@@ -1,5 +1,5 @@
 // Presets: TOML files with the knobs that differ from the defaults, one table per group, plus `about` (what it is
-// for). Reading admits each value through the gate of knob_table.h and reports file and line of what it refuses.
+// for) and comments. Reading admits each value through the gate of knob_table.h and reports file and line of what it refuses.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,7 @@ struct Preset {
     std::string name;   // file name without ".toml"
     std::string about;  // one line: what it is for
     Settings settings;
+    std::vector<std::string> notes{};  // comment lines written below `about`; not read back
 };
 
 struct PresetFile {

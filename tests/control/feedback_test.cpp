@@ -34,6 +34,34 @@ TEST(Estimate, IsOverheadPlusVTimeTimesCost) {
     EXPECT_EQ(estimateMs(state, 100.0), 27.0);
 }
 
+TEST(Start, IsWhatWasMeasuredWhereNoKnobSaysOtherwise) {
+    const ControlState state = startControl(plainControl(), 0.25, 2.0);
+    EXPECT_EQ(state.vTimeMs, 0.25);
+    EXPECT_EQ(state.calibratedMs, 0.25);
+    EXPECT_EQ(state.overheadMs, 2.0);
+}
+
+TEST(Start, TakesTheKnobsAndKeepsWhatWasMeasured) {
+    ControlSettings settings = plainControl();
+    settings.vTimeStartMs = 0.5;
+    settings.overheadMs = 3.0;
+    const ControlState state = startControl(settings, 0.25, 2.0);
+    EXPECT_EQ(state.vTimeMs, 0.5);
+    EXPECT_EQ(state.calibratedMs, 0.25);
+    EXPECT_EQ(state.overheadMs, 3.0);
+    EXPECT_EQ(state.measuredOverheadMs, 2.0);
+    EXPECT_EQ(shareMs(state, settings), 27.0);
+}
+
+// A preset from a machine a thousand times slower: the feedback must be able to come back.
+TEST(Start, KeepsVTimeWhereTheFeedbackCanFollow) {
+    ControlSettings settings = plainControl();
+    settings.vTimeStartMs = 250.0;
+    EXPECT_EQ(startControl(settings, 0.25, 2.0).vTimeMs, 2.0);
+    settings.vTimeStartMs = 1e-9;
+    EXPECT_EQ(startControl(settings, 0.25, 2.0).vTimeMs, 0.03125);
+}
+
 TEST(VTime, MovesByThePartGainTowardsWhatWasMeasured) {
     ControlState state = startControl(0.25, 2.0);
     // (52 - 2) / 100 = 0.5: 0.25 + 0.3 * 0.25

@@ -141,6 +141,17 @@ TEST(PresetToml, HoldsTheKnobsThatDifferAndTheirUnits) {
               "[draw]\nboxes = true\n");
 }
 
+TEST(PresetToml, NotesAreCommentsWhateverTheyHold) {
+    Preset preset{"p", "measured", {}, {"device: one", "two\nlines = 1", "\x01\x7f \"quoted\" # more"}};
+    preset.settings.select.cVis = 2.0;
+    EXPECT_EQ(presetToml(preset),
+              "about = \"measured\"\n# device: one\n# two lines = 1\n#    \"quoted\" # more\n\n[select]\nc_vis = 2.0\n");
+    const Result<Preset> back = parsePreset(presetToml(preset), "p.toml");
+    ASSERT_TRUE(back) << back.error().oneLine();
+    EXPECT_EQ(back->settings.select.cVis, 2.0);
+    EXPECT_TRUE(back->notes.empty());
+}
+
 RC_GTEST_PROP(PresetToml, ReadBackGivesTheSameSettings, ()) {
     Random r(*rc::gen::arbitrary<std::uint64_t>());
     const Preset preset{"p", "all knobs at random", randomSettings(r)};
