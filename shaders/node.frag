@@ -12,6 +12,7 @@ layout(binding = 0) uniform sampler2DArray atlases;
 #endif
 #ifdef LIT
 layout(location = 3) in float lightTerm;
+layout(location = 5) in float towards;
 #endif
 #ifdef LEVEL
 layout(location = 4) flat in vec3 levelColour;
@@ -32,7 +33,7 @@ void main() {
     shown = levelColour * (0.65 + 0.35 * dot(shown, vec3(0.2126, 0.7152, 0.0722)));
 #endif
 #ifdef LIT
-    shown *= brightness(frame.lightConstant, lightTerm, gl_FrontFacing);
+    shown *= brightness(frame.lightConstant, lightTerm, gl_FrontFacing, towards);
 #endif
     pixel = vec4(shown, 1.0);
 }

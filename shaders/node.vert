@@ -18,6 +18,7 @@ layout(location = 2) flat out uint layer;
 #endif
 #ifdef LIT
 layout(location = 3) out float lightTerm;
+layout(location = 5) out float towards;
 #endif
 #ifdef LEVEL
 layout(location = 4) flat out vec3 levelColour;
@@ -34,7 +35,9 @@ void main() {
     layer = draws[id].layer;
 #endif
 #ifdef LIT
-    lightTerm = dot(decodeOctahedral(octahedralNormal), frame.light);
+    vec3 normal = decodeOctahedral(octahedralNormal);
+    lightTerm = dot(normal, frame.light);
+    towards = -dot(normal, relative);
 #endif
 #ifdef LEVEL
     levelColour = draws[id].levelColour;

@@ -10,6 +10,7 @@ layout(binding = 0) uniform sampler2D image;
 #endif
 #ifdef LIT
 layout(location = 2) in float lightTerm;
+layout(location = 3) in float towards;
 #endif
 
 layout(location = 0) out vec4 pixel;
@@ -24,7 +25,7 @@ void main() {
     shown *= texel.rgb;
 #endif
 #ifdef LIT
-    shown *= brightness(frame.lightConstant, lightTerm, gl_FrontFacing);
+    shown *= brightness(frame.lightConstant, lightTerm, gl_FrontFacing, towards);
 #endif
     pixel = vec4(shown, 1.0);
 }

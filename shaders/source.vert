@@ -13,6 +13,7 @@ layout(location = 1) out vec2 uv;
 #endif
 #ifdef LIT
 layout(location = 2) out float lightTerm;
+layout(location = 3) out float towards;
 #endif
 
 void main() {
@@ -23,5 +24,6 @@ void main() {
 #endif
 #ifdef LIT
     lightTerm = dot(normal, frame.light);
+    towards = -dot(normal, relative);
 #endif
 }

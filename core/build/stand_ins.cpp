@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <queue>
-#include <tuple>
+
+#include "build/join_neighbours.h"
 
 namespace fb {
 namespace {
@@ -13,94 +12,6 @@ constexpr std::size_t kLeastParts = 16;    // fewer are simplified like anything
 constexpr double kLeastAreaShare = 0.1;    // of the piece: less is clutter that nobody misses from afar
 constexpr std::size_t kMostTriangles = 4;  // of a stand-in: a tetrahedron
 constexpr int kHalvings = 30;
-
-struct Part {
-    std::vector<std::uint32_t> triangles;
-    double area = 0.0;
-    glm::dvec3 centre{0.0};  // by area
-    Box3d bounds;
-    std::uint64_t curve = 0;  // place along the space-filling curve
-};
-
-std::uint64_t spreadBits(std::uint64_t v) {  // 21 bits to every third
-    std::uint64_t spread = 0;
-    for (int bit = 0; bit < 21; ++bit) spread |= (v >> bit & 1u) << (3 * bit);
-    return spread;
-}
-
-std::uint64_t mortonCode(const glm::dvec3& p) {
-    const glm::dvec3 cell = glm::clamp(p / 8.0, glm::dvec3(0.0), glm::dvec3(kGridSize / 8 - 1));
-    return spreadBits(static_cast<std::uint64_t>(cell.x)) |
-           spreadBits(static_cast<std::uint64_t>(cell.y)) << 1 |
-           spreadBits(static_cast<std::uint64_t>(cell.z)) << 2;
-}
-
-class PartFinder {
-  public:
-    PartFinder(const BlockMesh& mesh, std::span<const glm::uvec3> triangles)
-        : mesh_(mesh), triangles_(triangles) {
-        ids_.reserve(triangles.size() * 3);
-        for (const glm::uvec3& t : triangles) ids_.insert(ids_.end(), {t.x, t.y, t.z});
-        std::sort(ids_.begin(), ids_.end());
-        ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
-        root_.resize(ids_.size());
-        std::iota(root_.begin(), root_.end(), 0u);
-    }
-
-    // In the order of their first triangles.
-    std::vector<Part> find() {
-        std::vector<std::uint32_t> first(triangles_.size());
-        for (std::size_t i = 0; i < triangles_.size(); ++i) {
-            const glm::uvec3& t = triangles_[i];
-            first[i] = local(t.x);
-            unite(first[i], local(t.y));
-            unite(first[i], local(t.z));
-        }
-        std::vector<Part> parts;
-        std::vector<std::uint32_t> partOf(ids_.size(), kNone);
-        for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-            std::uint32_t& part = partOf[rootOf(first[i])];
-            if (part == kNone) {
-                part = static_cast<std::uint32_t>(parts.size());
-                parts.emplace_back();
-            }
-            add(parts[part], i);
-        }
-        for (Part& part : parts) {
-            part.centre /= part.area;
-            part.curve = mortonCode(part.centre);
-        }
-        return parts;
-    }
-
-  private:
-    void add(Part& part, std::uint32_t i) const {
-        const glm::uvec3& t = triangles_[i];
-        const std::array<glm::dvec3, 3> p = {mesh_.positions[t.x], mesh_.positions[t.y],
-                                             mesh_.positions[t.z]};
-        const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-        part.triangles.push_back(i);
-        part.area += area;
-        part.centre += area / 3.0 * (p[0] + p[1] + p[2]);
-        for (const glm::dvec3& corner : p) part.bounds.grow(corner);
-    }
-    [[nodiscard]] std::uint32_t local(std::uint32_t position) const {
-        return static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), ids_.end(), position) -
-                                          ids_.begin());
-    }
-    std::uint32_t rootOf(std::uint32_t i) {
-        while (root_[i] != i) i = root_[i] = root_[root_[i]];
-        return i;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = rootOf(a), b = rootOf(b);
-        root_[std::max(a, b)] = std::min(a, b);
-    }
-
-    const BlockMesh& mesh_;
-    std::span<const glm::uvec3> triangles_;
-    std::vector<std::uint32_t> ids_, root_;
-};
 
 // A few triangles over their own corners.
 struct Shape {
@@ -167,130 +78,65 @@ class ShapeOfPart {
     Shape shape_;
 };
 
-// Parts along the curve, joined with those beside them until `count` runs are left: always the two neighbours
-// whose common bounds are smallest.
-class RunJoiner {
-  public:
-    explicit RunJoiner(const std::vector<const Part*>& parts) : runs_(parts.size()) {
-        for (std::uint32_t i = 0; i < runs_.size(); ++i) {
-            runs_[i] = {i, i + 1, i + 1, i == 0 ? kNone : i - 1, 0, parts[i]->bounds};
-        }
-        for (std::uint32_t i = 0; i + 1 < runs_.size(); ++i) propose(i);
-    }
-
-    // Ends of runs, in order.
-    std::vector<std::size_t> join(std::size_t count) {
-        for (std::size_t left = runs_.size(); left > count && !queue_.empty();) {
-            const Proposal best = queue_.top();
-            queue_.pop();
-            Run& run = runs_[best.run];
-            if (run.version != best.version || run.next >= runs_.size()) continue;
-            if (runs_[run.next].version != best.nextVersion) continue;
-            joinNext(best.run);
-            --left;
-        }
-        std::vector<std::size_t> ends;
-        for (std::uint32_t i = 0; i < runs_.size(); i = runs_[i].next) ends.push_back(runs_[i].end);
-        return ends;
-    }
-
-  private:
-    struct Run {
-        std::uint32_t begin = 0, end = 0;  // of the parts
-        std::uint32_t next = 0, before = kNone;
-        std::uint32_t version = 0;
-        Box3d bounds;
-    };
-    struct Proposal {
-        double size;
-        std::uint32_t run, version, nextVersion;
-        bool operator<(const Proposal& other) const {  // the smallest first
-            return std::tie(size, run) > std::tie(other.size, other.run);
-        }
-    };
-
-    void propose(std::uint32_t i) {
-        const Run &run = runs_[i], &next = runs_[run.next];
-        Box3d both = run.bounds;
-        both.grow(next.bounds.min);
-        both.grow(next.bounds.max);
-        queue_.push({glm::length(both.size()), i, run.version, next.version});
-    }
-    void joinNext(std::uint32_t i) {
-        Run& run = runs_[i];
-        Run& gone = runs_[run.next];
-        run.bounds.grow(gone.bounds.min);
-        run.bounds.grow(gone.bounds.max);
-        run.end = gone.end;
-        run.next = gone.next;
-        ++run.version;
-        ++gone.version;
-        if (run.next < runs_.size()) {
-            runs_[run.next].before = i;
-            propose(i);
-        }
-        if (run.before != kNone) propose(run.before);
-    }
-
-    std::vector<Run> runs_;
-    std::priority_queue<Proposal> queue_;
-};
-
 class StandInMaker {
   public:
     StandInMaker(BlockMesh& mesh, std::span<const glm::uvec3> triangles, std::size_t aim)
         : mesh_(mesh), triangles_(triangles), aim_(aim) {}
 
     StandIns make() {
-        std::vector<Part> parts = PartFinder(mesh_, triangles_).find();
+        std::vector<Part> parts = findParts(mesh_, triangles_);
         double area = 0.0, smallArea = 0.0;
         for (const Part& part : parts) area += part.area;
         std::vector<const Part*> small;
-        std::size_t needed = 0;
         for (const Part& part : parts) {
             if (static_cast<double>(aim_) * part.area >= static_cast<double>(kMostTriangles) * area) continue;
             small.push_back(&part);
             smallArea += part.area;
-            needed += std::min(part.triangles.size(), kMostTriangles);
         }
         if (small.size() < kLeastParts || smallArea < kLeastAreaShare * area) return {};
-        const double budget = static_cast<double>(aim_) * smallArea / area;
-        const double each = static_cast<double>(needed) / static_cast<double>(small.size());
-        const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(budget / each)));
         std::ranges::stable_sort(small, {}, [](const Part* part) { return part->curve; });
         result_.replaced.assign(triangles_.size(), 0);
-        for (const std::span<const Part* const> run : runsOf(small, count)) standFor(run);
+        const double budget = static_cast<double>(aim_) * smallArea / area;
+        for (const Run& run : affordableRuns(small, static_cast<std::size_t>(budget))) standFor(run);
         if (result_.triangles.empty()) return {};
         return std::move(result_);
     }
 
   private:
-    static std::vector<std::span<const Part* const>> runsOf(const std::vector<const Part*>& parts,
-                                                            std::size_t count) {
-        std::vector<std::span<const Part* const>> runs;
-        std::size_t begin = 0;
-        for (const std::size_t end : RunJoiner(parts).join(count)) {
-            runs.push_back(std::span(parts).subspan(begin, end - begin));
-            begin = end;
-        }
-        return runs;
+    using Run = std::span<const Part* const>;
+
+    static const Part* largestOf(const Run& run) {
+        return *std::ranges::max_element(run, {}, [](const Part* part) { return part->area; });
     }
 
-    void standFor(std::span<const Part* const> run) {
+    // As many as there are triangles for. How many each needs shows only when it is known what is joined.
+    static std::vector<Run> affordableRuns(const std::vector<const Part*>& parts, std::size_t triangles) {
+        for (std::size_t count = std::clamp<std::size_t>(triangles, 1, parts.size());;) {
+            std::vector<Run> runs;
+            std::size_t begin = 0, needed = 0;
+            for (const std::size_t end : joinNeighbours(parts, count)) {
+                runs.push_back(Run(parts).subspan(begin, end - begin));
+                needed += std::min(largestOf(runs.back())->triangles.size(), kMostTriangles);
+                begin = end;
+            }
+            if (needed <= triangles || count == 1) return runs;
+            count = std::max<std::size_t>(1, std::min(count - 1, count * triangles / needed));
+        }
+    }
+
+    void standFor(const Run& run) {
         double area = 0.0;
         for (const Part* part : run) area += part->area;
         Box3d bounds;
         glm::dvec3 centre(0.0), size(0.0);
-        const Part* largest = run[0];
         for (const Part* part : run) {
             bounds.grow(part->bounds.min);
             bounds.grow(part->bounds.max);
             centre += part->area / area * part->centre;
             size += part->area / area * part->bounds.size();
-            if (part->area > largest->area) largest = part;
             for (const std::uint32_t i : part->triangles) result_.replaced[i] = 1;
         }
-        place(ShapeOfPart(mesh_, triangles_, *largest).take(), size, bounds, centre, area);
+        place(ShapeOfPart(mesh_, triangles_, *largestOf(run)).take(), size, bounds, centre, area);
     }
 
     // As large as the parts on average, and larger until it has their area or fills their bounds.

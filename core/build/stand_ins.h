@@ -1,8 +1,8 @@
-// Stand-ins for many small separate parts (houses as boxes, trees, leaves), which edge collapses would remove one by one
-// until whole quarters were bare: a few parts stay, each grown to the area and within the bounds of those around it that
-// it stands for. Used by simplify_level before a piece is simplified. (After Cook, Halstead, Planck and Ryu, "Stochastic
-// Simplification of Aggregate Detail", 2007; parts that are close along a space-filling curve are joined, the smallest
-// common bounds first, instead of drawn at random.)
+// Stand-ins for many small separate parts (houses as boxes, trees, leaves), which edge collapses would remove
+// one by one until whole quarters were bare: a few parts stay, each grown to the area and within the bounds
+// of those around it that it stands for. Used by simplify_level before a piece is simplified. (After Cook,
+// Halstead, Planck and Ryu, "Stochastic Simplification of Aggregate Detail", 2007; parts that are close along
+// a space-filling curve are joined, the smallest common bounds first, instead of drawn at random.)
 #pragma once
 
 #include <span>

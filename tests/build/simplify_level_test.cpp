@@ -20,7 +20,7 @@ using test::makeSheet;
 using test::makeSphere;
 
 struct World {
-    BlockMesh mesh;
+    mutable BlockMesh mesh;  // stand-ins add positions
     Level level;
 
     explicit World(const SourceMesh& source) {

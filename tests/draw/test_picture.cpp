@@ -154,6 +154,21 @@ TEST_F(DrawTest, LightsASurfaceByTheSideThatIsSeenWhateverItsWinding) {
     EXPECT_EQ(count(image, {242, 242, 242}), 4 * 3) << row(image, 3, {{'#', {242, 242, 242}}});
 }
 
+// A skirt has the normals of its surface, at a slant to its own: its back, seen past an edge, is lit as the surface is.
+// 0.64 + 0.34 * (-0.3 * 0.6 + 0.8) / 1.10114 = 0.83144, times 255 is 212.0; as a back it would be 114.
+TEST_F(DrawTest, LightsTheBackOfASkirtLikeTheSurfaceThatFacesTheViewer) {
+    World world;
+    DecodedNode node;
+    addTriangle(node, {glm::vec3{0, 0, 0}, {0, 12, 0}, {3.75, 0, 11.5}}, kWhite);  // its normal: (0.95, 0, -0.31)
+    for (GpuVertex& v : node.vertices) encodeNormal({0.6f, 0, 0.8f}, v.normal);
+    world.add(std::move(node), {-2, -6, -20});
+    world.uploadAll(*renderer);
+    effects[Effect::lighting] = true;
+    const Image image = picture(world, viewAlongZ({}, 40, 40));
+    EXPECT_GT(count(image, {212, 212, 212}), 20);
+    EXPECT_EQ(count(image, {114, 114, 114}), 0);
+}
+
 // Seen from above, the top of a floor: 0.64 + 0.34 * lamp.up + 0.12; camera up is -z, forward -y.
 // lamp = (-0.3, 0.35 along -z, 1 along y): 0.64 + 0.34 * 0.90815 + 0.12 > 1, so the white stays white.
 // From below: 0.64 + 0.34 * 0.90815 - 0.12 = 0.82877, times 255 is 211.3.

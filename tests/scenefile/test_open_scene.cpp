@@ -43,11 +43,11 @@ TEST(OpenScene, SaysWhatIsMissing) {
 TEST(OpenScene, NamesAnotherVersion) {
     const TemporaryFolder folder;
     test::writeTinyScene(folder.path(), {test::tinyBlock(0)});
-    const std::string other = "made by version 4; this program reads 3 (build it again)";
+    const std::string other = "made by version 5; this program reads 4 (build it again)";
     for (const char* name : {"hierarchy.bin", "blocks/00000.pack"}) {
         const Bytes good = test::readAll(folder.path() / name);
         Bytes bytes = good;
-        bytes[8] = 4;
+        bytes[8] = 5;
         test::overwrite(folder.path() / name, bytes);
         EXPECT_TRUE(says(soleFault(folder.path()), std::string(name) + ": header: " + other))
             << soleFault(folder.path());
@@ -55,7 +55,7 @@ TEST(OpenScene, NamesAnotherVersion) {
     }
     Bytes toml = test::readAll(folder.path() / "scene.toml");
     const std::string text(toml.begin(), toml.end());
-    toml[text.find("format = 3") + 9] = '4';
+    toml[text.find("format = 4") + 9] = '5';
     test::overwrite(folder.path() / "scene.toml", toml);
     EXPECT_TRUE(says(lineOf(openScene(folder.path())), "scene.toml: line 2: " + other));
 }

@@ -168,7 +168,7 @@ TEST(ParseTrailer, BelievesNoCountThatTheBytesCannotHold) {
     for (std::uint64_t count :
          {std::uint64_t{0}, std::uint64_t{2}, std::uint64_t{kMaxNodes} + 1, ~std::uint64_t{0}}) {
         Bytes bytes = good;
-        std::memcpy(bytes.data() + 64, &count, 8);
+        std::memcpy(bytes.data() + 80, &count, 8);
         EXPECT_TRUE(
             says(lineOf(parseTrailer(bytes, "pack")), "pack: trailer: claims a wrong number of nodes"))
             << count;

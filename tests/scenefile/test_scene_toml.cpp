@@ -132,9 +132,9 @@ TEST(SceneToml, NamesTheLineThatIsWrong) {
         text.replace(at, from.size(), to);
         return lineOf(parseSceneToml(text, "scene.toml"));
     };
-    EXPECT_TRUE(says(with("format = 3", "format = 9"),
-                     "line 2: made by version 9; this program reads 3 (build it again)"));
-    EXPECT_TRUE(says(with("format = 3", "format = \"3\""), "\"format\" must be a whole number"));
+    EXPECT_TRUE(says(with("format = 4", "format = 9"),
+                     "line 2: made by version 9; this program reads 4 (build it again)"));
+    EXPECT_TRUE(says(with("format = 4", "format = \"4\""), "\"format\" must be a whole number"));
     EXPECT_TRUE(says(with("up = \"z\"", "up = \"x\""), "line 5: \"up\" must be \"y\" or \"z\""));
     EXPECT_TRUE(says(with("up = \"z\"\n", ""), "\"up\" is missing"));
     EXPECT_TRUE(says(with("origin = [", "origin = [nan, "), "line 6: \"origin\" must be three finite"));

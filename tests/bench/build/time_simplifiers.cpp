@@ -17,7 +17,7 @@ struct LevelRow {
 };
 
 // Adds what level `l` of `block` gives; its leaves give none. `errors` by level and piece, in grid units.
-void addBlock(const PreparedBlock& block, std::size_t l, const BuildSettings& settings, std::size_t rounds,
+void addBlock(PreparedBlock& block, std::size_t l, const BuildSettings& settings, std::size_t rounds,
               const std::vector<std::vector<double>>& errors, LevelRow& row) {
     const BlockLevel& level = block.levels[l];
     std::vector<std::size_t> aims;
@@ -49,10 +49,10 @@ struct Subject {
 
 Result<void> timeOne(const Subject& subject, const char* name, const BuildSettings& settings,
                      const BenchOptions& options) {
-    const Result<std::vector<PreparedBlock>> blocks = prepareBlocks(subject.blocks, settings);
+    Result<std::vector<PreparedBlock>> blocks = prepareBlocks(subject.blocks, settings);
     if (!blocks) return failure({}, {}, blocks.error().oneLine());
     std::vector<LevelRow> rows(innerLevels(*blocks));
-    for (const PreparedBlock& block : *blocks) {
+    for (PreparedBlock& block : *blocks) {
         const std::vector<std::vector<double>> errors = measureErrors(block.mesh, block.levels);
         for (std::size_t l = 0; l + 1 < block.levels.size(); ++l)
             addBlock(block, l, settings, options.rounds, errors, rows[l]);

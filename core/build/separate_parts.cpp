@@ -1,0 +1,96 @@
+#include "build/separate_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace fb {
+namespace {
+
+std::uint64_t spreadBits(std::uint64_t v) {  // 21 bits to every third
+    std::uint64_t spread = 0;
+    for (int bit = 0; bit < 21; ++bit) spread |= (v >> bit & 1u) << (3 * bit);
+    return spread;
+}
+
+std::uint64_t mortonCode(const glm::dvec3& p) {
+    const glm::dvec3 cell = glm::clamp(p / 8.0, glm::dvec3(0.0), glm::dvec3(kGridSize / 8 - 1));
+    return spreadBits(static_cast<std::uint64_t>(cell.x)) |
+           spreadBits(static_cast<std::uint64_t>(cell.y)) << 1 |
+           spreadBits(static_cast<std::uint64_t>(cell.z)) << 2;
+}
+
+class PartFinder {
+  public:
+    PartFinder(const BlockMesh& mesh, std::span<const glm::uvec3> triangles)
+        : mesh_(mesh), triangles_(triangles) {
+        ids_.reserve(triangles.size() * 3);
+        for (const glm::uvec3& t : triangles) ids_.insert(ids_.end(), {t.x, t.y, t.z});
+        std::sort(ids_.begin(), ids_.end());
+        ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
+        root_.resize(ids_.size());
+        std::iota(root_.begin(), root_.end(), 0u);
+    }
+
+    // In the order of their first triangles.
+    std::vector<Part> find() {
+        std::vector<std::uint32_t> first(triangles_.size());
+        for (std::size_t i = 0; i < triangles_.size(); ++i) {
+            const glm::uvec3& t = triangles_[i];
+            first[i] = local(t.x);
+            unite(first[i], local(t.y));
+            unite(first[i], local(t.z));
+        }
+        std::vector<Part> parts;
+        std::vector<std::uint32_t> partOf(ids_.size(), kNone);
+        for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+            std::uint32_t& part = partOf[rootOf(first[i])];
+            if (part == kNone) {
+                part = static_cast<std::uint32_t>(parts.size());
+                parts.emplace_back();
+            }
+            add(parts[part], i);
+        }
+        for (Part& part : parts) {
+            part.centre /= part.area;
+            part.curve = mortonCode(part.centre);
+        }
+        return parts;
+    }
+
+  private:
+    void add(Part& part, std::uint32_t i) const {
+        const glm::uvec3& t = triangles_[i];
+        const std::array<glm::dvec3, 3> p = {mesh_.positions[t.x], mesh_.positions[t.y],
+                                             mesh_.positions[t.z]};
+        const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+        part.triangles.push_back(i);
+        part.area += area;
+        part.centre += area / 3.0 * (p[0] + p[1] + p[2]);
+        for (const glm::dvec3& corner : p) part.bounds.grow(corner);
+    }
+    [[nodiscard]] std::uint32_t local(std::uint32_t position) const {
+        return static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), ids_.end(), position) -
+                                          ids_.begin());
+    }
+    std::uint32_t rootOf(std::uint32_t i) {
+        while (root_[i] != i) i = root_[i] = root_[root_[i]];
+        return i;
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        a = rootOf(a), b = rootOf(b);
+        root_[std::max(a, b)] = std::min(a, b);
+    }
+
+    const BlockMesh& mesh_;
+    std::span<const glm::uvec3> triangles_;
+    std::vector<std::uint32_t> ids_, root_;
+};
+
+}  // namespace
+
+std::vector<Part> findParts(const BlockMesh& mesh, std::span<const glm::uvec3> triangles) {
+    return PartFinder(mesh, triangles).find();
+}
+
+}  // namespace fb
