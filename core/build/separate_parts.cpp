@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 namespace fb {
 namespace {
@@ -22,14 +21,9 @@ std::uint64_t mortonCode(const glm::dvec3& p) {
 
 class PartFinder {
   public:
-    PartFinder(const BlockMesh& mesh, std::span<const glm::uvec3> triangles)
-        : mesh_(mesh), triangles_(triangles) {
-        ids_.reserve(triangles.size() * 3);
-        for (const glm::uvec3& t : triangles) ids_.insert(ids_.end(), {t.x, t.y, t.z});
-        std::sort(ids_.begin(), ids_.end());
-        ids_.erase(std::unique(ids_.begin(), ids_.end()), ids_.end());
-        root_.resize(ids_.size());
-        std::iota(root_.begin(), root_.end(), 0u);
+    PartFinder(const BlockMesh& mesh, std::span<const glm::uvec3> triangles, Numbering& numbering)
+        : mesh_(mesh), triangles_(triangles), numbering_(numbering) {
+        numbering_.restart();
     }
 
     // In the order of their first triangles.
@@ -42,7 +36,7 @@ class PartFinder {
             unite(first[i], local(t.z));
         }
         std::vector<Part> parts;
-        std::vector<std::uint32_t> partOf(ids_.size(), kNone);
+        std::vector<std::uint32_t> partOf(root_.size(), kNone);
         for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
             std::uint32_t& part = partOf[rootOf(first[i])];
             if (part == kNone) {
@@ -69,9 +63,12 @@ class PartFinder {
         part.centre += area / 3.0 * (p[0] + p[1] + p[2]);
         for (const glm::dvec3& corner : p) part.bounds.grow(corner);
     }
-    [[nodiscard]] std::uint32_t local(std::uint32_t position) const {
-        return static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), ids_.end(), position) -
-                                          ids_.begin());
+    std::uint32_t local(std::uint32_t position) {
+        const auto next = static_cast<std::uint32_t>(root_.size());
+        const std::uint32_t known = numbering_.findOrSet(position, next);
+        if (known != kNone) return known;
+        root_.push_back(next);
+        return next;
     }
     std::uint32_t rootOf(std::uint32_t i) {
         while (root_[i] != i) i = root_[i] = root_[root_[i]];
@@ -84,13 +81,15 @@ class PartFinder {
 
     const BlockMesh& mesh_;
     std::span<const glm::uvec3> triangles_;
-    std::vector<std::uint32_t> ids_, root_;
+    Numbering& numbering_;
+    std::vector<std::uint32_t> root_;  // by number of a position
 };
 
 }  // namespace
 
-std::vector<Part> findParts(const BlockMesh& mesh, std::span<const glm::uvec3> triangles) {
-    return PartFinder(mesh, triangles).find();
+std::vector<Part> findParts(const BlockMesh& mesh, std::span<const glm::uvec3> triangles,
+                            Numbering& numbering) {
+    return PartFinder(mesh, triangles, numbering).find();
 }
 
 }  // namespace fb

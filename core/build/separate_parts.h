@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "build/block_mesh.h"
+#include "build/numbering.h"
 
 namespace fb {
 
@@ -17,7 +17,8 @@ struct Part {
     std::uint64_t curve = 0;  // of the centre along a space-filling curve (Morton)
 };
 
-// In the order of their first triangles, which have positions.
-[[nodiscard]] std::vector<Part> findParts(const BlockMesh& mesh, std::span<const glm::uvec3> triangles);
+// In the order of their first triangles, which have positions. `numbering` is for positions.
+[[nodiscard]] std::vector<Part> findParts(const BlockMesh& mesh, std::span<const glm::uvec3> triangles,
+                                          Numbering& numbering);
 
 }  // namespace fb

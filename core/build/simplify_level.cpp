@@ -113,7 +113,7 @@ class LevelSimplifier {
     std::size_t withoutSmallParts(std::size_t piece, std::size_t aim) {
         standIns_.emplace_back();
         const std::vector<glm::uvec3> triangles = original(piece, Seams::welded);
-        standIns_[piece] = makeStandIns(mesh_, triangles, aim);
+        standIns_[piece] = makeStandIns(mesh_, triangles, aim, places_);
         const StandIns& made = standIns_[piece];
         if (made.empty()) return aim;
         const auto left = static_cast<std::size_t>(std::ranges::count(made.replaced, std::uint8_t{0}));

@@ -83,8 +83,9 @@ class StandInMaker {
     StandInMaker(BlockMesh& mesh, std::span<const glm::uvec3> triangles, std::size_t aim)
         : mesh_(mesh), triangles_(triangles), aim_(aim) {}
 
-    StandIns make() {
-        std::vector<Part> parts = findParts(mesh_, triangles_);
+    StandIns make(Numbering& numbering) {
+        const std::vector<Part> parts = findParts(mesh_, triangles_, numbering);
+        if (parts.size() < kLeastParts) return {};
         double area = 0.0, smallArea = 0.0;
         for (const Part& part : parts) area += part.area;
         std::vector<const Part*> small;
@@ -183,9 +184,10 @@ class StandInMaker {
 
 }  // namespace
 
-StandIns makeStandIns(BlockMesh& mesh, std::span<const glm::uvec3> triangles, std::size_t aim) {
+StandIns makeStandIns(BlockMesh& mesh, std::span<const glm::uvec3> triangles, std::size_t aim,
+                      Numbering& numbering) {
     if (triangles.size() <= aim) return {};
-    return StandInMaker(mesh, triangles, aim).make();
+    return StandInMaker(mesh, triangles, aim).make(numbering);
 }
 
 }  // namespace fb

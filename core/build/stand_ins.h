@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "build/block_mesh.h"
+#include "build/numbering.h"
 
 namespace fb {
 
@@ -22,6 +22,8 @@ struct StandIns {
 // `triangles` of positions, of one piece that should have `aim` triangles. Parts are connected by positions;
 // those whose share of the aim, by area, is less than a tetrahedron are small. None where small parts are few
 // or matter little.
-[[nodiscard]] StandIns makeStandIns(BlockMesh& mesh, std::span<const glm::uvec3> triangles, std::size_t aim);
+// `numbering` is for the positions that the triangles have.
+[[nodiscard]] StandIns makeStandIns(BlockMesh& mesh, std::span<const glm::uvec3> triangles, std::size_t aim,
+                                    Numbering& numbering);
 
 }  // namespace fb

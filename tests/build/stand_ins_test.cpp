@@ -58,10 +58,15 @@ struct Parts {
     }
 };
 
+StandIns standInsOf(Parts& parts, std::size_t aim) {
+    Numbering numbering(parts.mesh.positions.size());
+    return makeStandIns(parts.mesh, parts.triangles, aim, numbering);
+}
+
 TEST(StandIns, AreAsManyAsTheAimAllowsAndNearEveryPart) {
     Parts parts = Parts::field(20);  // 4,800 triangles
     for (const std::size_t aim : {1200u, 400u, 100u}) {
-        const StandIns made = makeStandIns(parts.mesh, parts.triangles, aim);
+        const StandIns made = standInsOf(parts, aim);
         EXPECT_LE(made.triangles.size(), aim);
         EXPECT_GE(made.triangles.size(), aim * 9 / 10);
         const double spacing = 1000.0 * std::sqrt(400.0 * 4.0 / static_cast<double>(aim));
@@ -73,7 +78,7 @@ TEST(StandIns, AreAsManyAsTheAimAllowsAndNearEveryPart) {
 TEST(StandIns, KeepTheAreaAndStayWithinTheBounds) {
     Parts parts = Parts::field(20);
     const double area = parts.area(parts.triangles);
-    const StandIns made = makeStandIns(parts.mesh, parts.triangles, 400);
+    const StandIns made = standInsOf(parts, 400);
     // A tetrahedron of a row of parts may fill their bounds before it has their area.
     EXPECT_LE(parts.area(made.triangles), 1.01 * area);
     EXPECT_GE(parts.area(made.triangles), 0.65 * area);
@@ -87,7 +92,7 @@ TEST(StandIns, KeepTheAreaAndStayWithinTheBounds) {
 
 TEST(StandIns, FaceOutward) {
     Parts parts = Parts::field(8);
-    const StandIns made = makeStandIns(parts.mesh, parts.triangles, 64);
+    const StandIns made = standInsOf(parts, 64);
     double volume = 0.0;
     for (const glm::uvec3& t : made.triangles) {
         const TriangleCorners c = parts.corners(t);
@@ -100,7 +105,7 @@ TEST(StandIns, LeaveLargePartsAlone) {
     Parts parts = Parts::field(20);
     const std::size_t small = parts.triangles.size();
     for (int i = 0; i < 40; ++i) parts.addBox({30000, i * 1000.0, 0}, {400, 1000, 400});  // one long wall
-    const StandIns made = makeStandIns(parts.mesh, parts.triangles, 1000);
+    const StandIns made = standInsOf(parts, 1000);
     ASSERT_FALSE(made.empty());
     for (std::size_t t = 0; t < parts.triangles.size(); ++t)
         EXPECT_EQ(made.replaced[t], t < small ? 1 : 0) << t;
@@ -109,14 +114,14 @@ TEST(StandIns, LeaveLargePartsAlone) {
 TEST(StandIns, AreNotMadeOfOneSurfaceFewPartsOrClutter) {
     Parts one;
     for (int i = 0; i < 100; ++i) one.addBox({i * 100.0, 0, 0}, glm::dvec3(100));  // they touch
-    EXPECT_TRUE(makeStandIns(one.mesh, one.triangles, 100).empty());
+    EXPECT_TRUE(standInsOf(one, 100).empty());
     Parts few = Parts::field(3);
-    EXPECT_TRUE(makeStandIns(few.mesh, few.triangles, 20).empty());
+    EXPECT_TRUE(standInsOf(few, 20).empty());
     Parts clutter = Parts::field(10, 20.0);
     clutter.addBox({0, 0, -90000}, glm::dvec3(10000));
-    EXPECT_TRUE(makeStandIns(clutter.mesh, clutter.triangles, 50).empty());
+    EXPECT_TRUE(standInsOf(clutter, 50).empty());
     Parts enough = Parts::field(10);
-    EXPECT_TRUE(makeStandIns(enough.mesh, enough.triangles, enough.triangles.size()).empty());
+    EXPECT_TRUE(standInsOf(enough, enough.triangles.size()).empty());
 }
 
 RC_GTEST_PROP(StandIns, AreSoundForAnyParts, (std::uint64_t seed)) {
@@ -140,8 +145,8 @@ RC_GTEST_PROP(StandIns, AreSoundForAnyParts, (std::uint64_t seed)) {
     }
     Parts again = parts;
     const std::size_t aim = 1 + random.index(parts.triangles.size() + 1);
-    const StandIns made = makeStandIns(parts.mesh, parts.triangles, aim);
-    const StandIns same = makeStandIns(again.mesh, again.triangles, aim);
+    const StandIns made = standInsOf(parts, aim);
+    const StandIns same = standInsOf(again, aim);
     RC_ASSERT(made.triangles == same.triangles);
     RC_ASSERT(made.replaced == same.replaced);
     RC_ASSERT(made.empty() || made.replaced.size() == parts.triangles.size());
