@@ -17,6 +17,10 @@ constexpr std::size_t kSmallestAim = 4;
 // Clustering moves vertices off the cuts and leaves gaps there: only for pieces that are hopeless otherwise.
 constexpr double kHopelessFactor = 3.0;
 
+// Seams are welded, and colours carried over to a new atlas, where keeping them makes the error so many times
+// larger.
+constexpr double kSeamCost = 1.5, kOneUnit = 1.0;
+
 struct TaggedTriangle {
     glm::uvec3 ids;  // wedges or positions
     std::uint32_t piece;
@@ -27,6 +31,17 @@ struct Task {
     SimplifyInput input;
     std::vector<std::uint32_t> ids;     // by vertex: wedge or position
     std::vector<std::uint32_t> pieces;  // by vertex
+
+    std::uint32_t placeCount = 0;
+
+    // Whether a piece has two vertices at one place.
+    [[nodiscard]] bool hasSeams() const {
+        if (pieces.empty() || pieces.front() == pieces.back()) return ids.size() > placeCount;  // one piece
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> seen;
+        for (std::size_t i = 0; i < pieces.size(); ++i) seen.emplace_back(pieces[i], input.places[i]);
+        std::ranges::sort(seen);
+        return std::ranges::adjacent_find(seen) != seen.end();
+    }
 };
 
 enum class Seams : std::uint8_t { kept, welded };
@@ -52,9 +67,11 @@ class LevelSimplifier {
         const bool together = pieces > 1 && level_.triangles.size() > jointAim;
         if (together) {
             Joint result = simplifyTogether(Seams::kept, jointAim);
-            if (isStuck(result.triangles.size(), jointAim)) {
+            if (result.hasSeams && (tellsErrors() || isStuck(result.triangles.size(), jointAim))) {
                 Joint welded = simplifyTogether(Seams::welded, jointAim);
-                if (welded.triangles.size() < result.triangles.size()) {
+                const bool isFewer = welded.triangles.size() < result.triangles.size();
+                if ((isStuck(result.triangles.size(), jointAim) && isFewer) ||
+                    isCostly(result.errorGridUnits, welded.errorGridUnits)) {
                     seams = Seams::welded;
                     result = std::move(welded);
                 }
@@ -67,8 +84,8 @@ class LevelSimplifier {
         std::vector<SimplifiedPiece> result(pieces);
         for (std::size_t i = 0; i < pieces; ++i) {
             if (aims[i] > 0) {
-                result[i] = simplifyAlone(i, joint[i], seams,
-                                          {aims[i], together ? mostTriangles(aims[i]) : aims[i]});
+                result[i] =
+                    simplifyAlone(i, joint[i], seams, {aims[i], together ? mostTriangles(aims[i]) : aims[i]});
             }
             addStandIns(result[i], i);
         }
@@ -80,6 +97,8 @@ class LevelSimplifier {
     struct Joint {
         std::vector<TaggedTriangle> triangles;
         std::uint64_t carriedTriangles = 0;
+        double errorGridUnits = 0.0;
+        bool hasSeams = false;  // of textures or colours, which were kept
     };
 
     // What a piece should have, and what it is simplified to when it has more than that.
@@ -90,6 +109,9 @@ class LevelSimplifier {
     static bool isStuck(std::size_t triangles, std::size_t aim) {
         return static_cast<double>(triangles) > kStuckFactor * static_cast<double>(aim);
     }
+    [[nodiscard]] bool tellsErrors() const { return simplifier_ == Simplifier::meshoptimizer; }
+    // Keeping seams moves the surface too far.
+    static bool isCostly(double kept, double welded) { return kept > kSeamCost * welded + kOneUnit; }
     static std::size_t mostTriangles(std::size_t aim) {
         return static_cast<std::size_t>(kStuckFactor * static_cast<double>(aim));
     }
@@ -105,7 +127,8 @@ class LevelSimplifier {
 
     // Collapses along a straight line leave some.
     [[nodiscard]] bool hasNoArea(const glm::uvec3& ids, Seams seams) const {
-        return isDegenerate(mesh_.positions[positionOf(ids.x, seams)], mesh_.positions[positionOf(ids.y, seams)],
+        return isDegenerate(mesh_.positions[positionOf(ids.x, seams)],
+                            mesh_.positions[positionOf(ids.y, seams)],
                             mesh_.positions[positionOf(ids.z, seams)]);
     }
 
@@ -159,7 +182,7 @@ class LevelSimplifier {
     [[nodiscard]] Task makeTask(const std::vector<TaggedTriangle>& triangles, Seams seams, Cuts cuts) {
         Task task;
         places_.restart();
-        std::uint32_t placeCount = 0, piece = kNone;
+        std::uint32_t piece = kNone;
         for (const TaggedTriangle& triangle : triangles) {
             if (triangle.piece != piece) vertices_.restart();
             piece = triangle.piece;
@@ -171,8 +194,8 @@ class LevelSimplifier {
                 if (local[k] != kNone) continue;
                 local[k] = next;
                 const std::uint32_t position = positionOf(id, seams);
-                std::uint32_t place = places_.findOrSet(position, placeCount);
-                if (place == kNone) place = placeCount++;
+                std::uint32_t place = places_.findOrSet(position, task.placeCount);
+                if (place == kNone) place = task.placeCount++;
                 task.ids.push_back(id);
                 task.pieces.push_back(triangle.piece);
                 task.input.points.emplace_back(mesh_.positions[position]);
@@ -194,7 +217,8 @@ class LevelSimplifier {
         Task task = makeTask(all, seams, Cuts::seams);
         task.input.targetTriangles = aim;
         const SimplifyOutput output = simplify(task.input);
-        Joint joint{{}, output.carriedTriangles};
+        Joint joint{
+            {}, output.carriedTriangles, output.errorGridUnits, seams == Seams::kept && task.hasSeams()};
         for (const glm::uvec3& t : output.triangles) {
             const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);
             if (!hasNoArea(ids, seams)) joint.triangles.push_back({ids, task.pieces[t.x]});
@@ -202,15 +226,22 @@ class LevelSimplifier {
         return joint;
     }
 
-    [[nodiscard]] SimplifiedPiece simplifyOnce(const std::vector<glm::uvec3>& triangles, Seams seams,
-                                               std::size_t aim, bool sloppy) {
+    struct Attempt {
+        SimplifiedPiece piece;
+        double errorGridUnits = 0.0;
+        bool hasSeams = false;  // which were kept
+    };
+
+    [[nodiscard]] Attempt simplifyOnce(const std::vector<glm::uvec3>& triangles, Seams seams, std::size_t aim,
+                                       bool sloppy) {
         std::vector<TaggedTriangle> tagged;
         tagged.reserve(triangles.size());
         for (const glm::uvec3& ids : triangles) tagged.push_back({ids, 0});
         Task task = makeTask(tagged, seams, Cuts::locked);
         task.input.targetTriangles = aim;
         const SimplifyOutput output = sloppy ? simplifySloppily(task.input) : simplify(task.input);
-        SimplifiedPiece result;
+        Attempt made{{}, output.errorGridUnits, seams == Seams::kept && task.hasSeams()};
+        SimplifiedPiece& result = made.piece;
         result.welded = seams == Seams::welded;
         result.clustered = sloppy;
         result.carriedTriangles = output.carriedTriangles;
@@ -218,7 +249,7 @@ class LevelSimplifier {
             const glm::uvec3 ids(task.ids[t.x], task.ids[t.y], task.ids[t.z]);
             if (!hasNoArea(ids, seams)) result.triangles.push_back(ids);
         }
-        return result;
+        return made;
     }
 
     [[nodiscard]] SimplifiedPiece simplifyAlone(std::size_t piece, std::vector<glm::uvec3> start, Seams seams,
@@ -230,12 +261,28 @@ class LevelSimplifier {
         SimplifiedPiece best;
         best.triangles = start;
         best.welded = seams == Seams::welded;
-        const auto attempt = [&](Seams how, bool sloppy) {
-            SimplifiedPiece next = simplifyOnce(start, how, aim.target, sloppy);
-            if (!next.triangles.empty() && next.triangles.size() < best.triangles.size())
-                best = std::move(next);
+        const auto take = [&](Attempt& next) {
+            if (!next.piece.triangles.empty() && next.piece.triangles.size() < best.triangles.size())
+                best = std::move(next.piece);
         };
-        if (best.triangles.size() > aim.target) attempt(seams, false);
+        const auto attempt = [&](Seams how, bool sloppy) {
+            Attempt next = simplifyOnce(start, how, aim.target, sloppy);
+            take(next);
+        };
+        if (best.triangles.size() > aim.target) {
+            Attempt kept = simplifyOnce(start, seams, aim.target, false);
+            if (kept.hasSeams && tellsErrors()) {
+                std::vector<glm::uvec3> welded = start;
+                weld(welded);
+                Attempt other = simplifyOnce(welded, Seams::welded, aim.target, false);
+                if (isCostly(kept.errorGridUnits, other.errorGridUnits)) {
+                    start = std::move(welded);
+                    seams = Seams::welded;
+                    kept = std::move(other);
+                }
+            }
+            take(kept);
+        }
         if (isStuck(best.triangles.size(), aim.wanted)) {
             if (seams == Seams::kept) {
                 weld(start);

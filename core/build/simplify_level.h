@@ -1,11 +1,12 @@
 // Simplifies the pieces of one level from the original, each to its own aim (thesis 3.2).
 // Comes from split_mesh; finish_node dresses the result with attributes.
-// Many small separate parts of a piece make room for stand-ins first (stand_ins.h). Then two steps. First all pieces of the level together, to the sum of their aims: cutting planes are seams
-// there, so both sides of a cut are simplified alike and pieces of one level always meet exactly, and
-// triangles go where detail is. Then each piece that still has more than kStuckFactor times its aim alone,
-// with the vertices on cutting planes locked. Where texture seams hinder, they are welded and colours carried
-// over later; where even that misses the aim by far, vertices are clustered. Every step but the last stops
-// where shapes would be lost: such a piece is stuck.
+// Many small separate parts of a piece make room for stand-ins first (stand_ins.h). Then two steps. First all
+// pieces of the level together, to the sum of their aims: cutting planes are seams there, so both sides of a
+// cut are simplified alike and pieces of one level always meet exactly, and triangles go where detail is. Then
+// each piece that still has more than kStuckFactor times its aim alone, with the vertices on cutting planes
+// locked. Where texture seams hinder, or keeping them costs accuracy, they are welded and colours carried over
+// later; where even that misses the aim by far, vertices are clustered. Every step but the last stops where
+// shapes would be lost: such a piece is stuck.
 #pragma once
 
 #include <span>

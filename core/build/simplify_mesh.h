@@ -25,6 +25,7 @@ struct SimplifyInput {
 
 struct SimplifyOutput {
     std::vector<glm::uvec3> triangles;
+    double errorGridUnits = 0.0;  // the largest that a collapse was worth (quadrics); 0: OpenMesh does not tell
     std::uint64_t carriedTriangles =
         0;  // non-manifold ones that OpenMesh could not connect, kept with locked corners
 };

@@ -33,9 +33,12 @@ SimplifyOutput simplifyWithMeshoptimizer(const SimplifyInput& input) {
     }
     const std::size_t indices = input.triangles.size() * 3;
     std::vector<std::uint32_t> result(indices);
+    float error = 0.0f;
     const std::size_t kept = meshopt_simplify(result.data(), &input.triangles[0].x, indices, &points[0].x,
                                               points.size(), sizeof(glm::vec3), input.targetTriangles * 3,
-                                              static_cast<float>(kErrorLimit), 0, nullptr);
+                                              static_cast<float>(kErrorLimit), 0, &error);
+    output.errorGridUnits = static_cast<double>(error) * static_cast<double>(meshopt_simplifyScale(
+                                                             &points[0].x, points.size(), sizeof(glm::vec3)));
     takeTriangles(result, kept, input, output);
     return output;
 }

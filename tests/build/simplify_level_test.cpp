@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "base/random.h"
 #include "block_worlds.h"
+#include "build/farthest_from.h"
 #include "build/quantise_block.h"
 #include "build/simplify_mesh.h"
 #include "build/split_mesh.h"
@@ -241,6 +243,60 @@ TEST(SimplifyLevel, WeldsSeamsWhenTheyHinder) {
         EXPECT_FALSE(pieces[0].stuck);
         EXPECT_LE(pieces[0].triangles.size(), 300u);
         EXPECT_NEAR(world.areaOf(pieces[0]), test::areaOf(sheet), 0.05 * test::areaOf(sheet));
+    }
+}
+
+// A bumpy sheet whose texture comes in islands of 2 x 2 cells, as scans' do.
+World islands(int cells, bool seams) {
+    World world(makeSheet({cells, cells, 8.0, 8.0, bumps}));
+    for (MeshTriangle& t : world.level.triangles) {
+        glm::dvec3 centre(0.0);
+        for (int k = 0; k < 3; ++k) centre += glm::dvec3(world.mesh.at(t.wedges[k])) / 3.0;
+        const glm::dvec3 island =
+            glm::floor(centre / static_cast<double>(kGridSize) * static_cast<double>(cells) / 2.0);
+        for (int k = 0; k < 3 && seams; ++k) {
+            Wedge wedge = world.mesh.wedges[t.wedges[k]];
+            wedge.uv = glm::vec2(island.x * 10.0, island.y * 10.0 + island.z);
+            const auto same = [&](const Wedge& w) {
+                return w.position == wedge.position && w.uv == wedge.uv;
+            };
+            const auto found = std::ranges::find_if(world.mesh.wedges, same);
+            t.wedges[k] = static_cast<std::uint32_t>(found - world.mesh.wedges.begin());
+            if (found == world.mesh.wedges.end()) world.mesh.wedges.push_back(wedge);
+        }
+    }
+    return world;
+}
+
+double farthestOff(const World& world, const SimplifiedPiece& piece) {
+    const auto surface = [&](const std::vector<glm::uvec3>& positions) {
+        std::vector<glm::vec3> points;
+        std::vector<glm::uvec3> triangles;
+        for (const glm::uvec3& t : positions) {
+            const auto first = static_cast<std::uint32_t>(points.size());
+            for (int k = 0; k < 3; ++k) points.emplace_back(world.mesh.positions[t[k]]);
+            triangles.emplace_back(first, first + 1, first + 2);
+        }
+        return MeasuredSurface(points, triangles);
+    };
+    std::vector<glm::uvec3> original, drawn;
+    for (const MeshTriangle& t : world.level.triangles) {
+        original.emplace_back(world.mesh.wedges[t.wedges.x].position, world.mesh.wedges[t.wedges.y].position,
+                              world.mesh.wedges[t.wedges.z].position);
+    }
+    for (const glm::uvec3& t : piece.triangles)
+        drawn.emplace_back(world.positionOf(piece, t.x), world.positionOf(piece, t.y),
+                           world.positionOf(piece, t.z));
+    return farthestFrom(surface(original), surface(drawn), 0.0);
+}
+
+TEST(SimplifyLevel, WeldsSeamsWhereKeepingThemCostsAccuracy) {
+    for (const double factor : {2.0, 3.0}) {  // not stuck: islands alone would reach these
+        const World plain = islands(32, false), seamed = islands(32, true);
+        const auto expected = plain.simplify(factor, Simplifier::meshoptimizer);
+        const auto pieces = seamed.simplify(factor, Simplifier::meshoptimizer);
+        EXPECT_FALSE(expected[0].welded);
+        EXPECT_LE(farthestOff(seamed, pieces[0]), 2.0 * farthestOff(plain, expected[0])) << factor;
     }
 }
 
