@@ -246,23 +246,20 @@ TEST(SimplifyLevel, WeldsSeamsWhenTheyHinder) {
     }
 }
 
-// A bumpy sheet whose texture comes in islands of 2 x 2 cells, as scans' do.
-World islands(int cells, bool seams) {
+// A bumpy sheet; with `seams` each triangle of its first quarter is a texture island of its own, as scans
+// have places full of scraps. Triangles that cannot be had there must be saved elsewhere.
+World scraps(int cells, bool seams) {
     World world(makeSheet({cells, cells, 8.0, 8.0, bumps}));
-    for (MeshTriangle& t : world.level.triangles) {
-        glm::dvec3 centre(0.0);
-        for (int k = 0; k < 3; ++k) centre += glm::dvec3(world.mesh.at(t.wedges[k])) / 3.0;
-        const glm::dvec3 island =
-            glm::floor(centre / static_cast<double>(kGridSize) * static_cast<double>(cells) / 2.0);
-        for (int k = 0; k < 3 && seams; ++k) {
+    for (std::size_t i = 0; i < world.level.triangles.size() && seams; ++i) {
+        MeshTriangle& t = world.level.triangles[i];
+        std::int32_t right = 0;
+        for (int k = 0; k < 3; ++k) right = std::max(right, world.mesh.at(t.wedges[k]).x);
+        if (right > world.mesh.at(world.level.triangles.back().wedges.x).x / 4) continue;
+        for (int k = 0; k < 3; ++k) {
             Wedge wedge = world.mesh.wedges[t.wedges[k]];
-            wedge.uv = glm::vec2(island.x * 10.0, island.y * 10.0 + island.z);
-            const auto same = [&](const Wedge& w) {
-                return w.position == wedge.position && w.uv == wedge.uv;
-            };
-            const auto found = std::ranges::find_if(world.mesh.wedges, same);
-            t.wedges[k] = static_cast<std::uint32_t>(found - world.mesh.wedges.begin());
-            if (found == world.mesh.wedges.end()) world.mesh.wedges.push_back(wedge);
+            wedge.uv = glm::vec2(i, 1.0f);
+            t.wedges[k] = static_cast<std::uint32_t>(world.mesh.wedges.size());
+            world.mesh.wedges.push_back(wedge);
         }
     }
     return world;
@@ -291,13 +288,12 @@ double farthestOff(const World& world, const SimplifiedPiece& piece) {
 }
 
 TEST(SimplifyLevel, WeldsSeamsWhereKeepingThemCostsAccuracy) {
-    for (const double factor : {2.0, 3.0}) {  // not stuck: islands alone would reach these
-        const World plain = islands(32, false), seamed = islands(32, true);
-        const auto expected = plain.simplify(factor, Simplifier::meshoptimizer);
-        const auto pieces = seamed.simplify(factor, Simplifier::meshoptimizer);
-        EXPECT_FALSE(expected[0].welded);
-        EXPECT_LE(farthestOff(seamed, pieces[0]), 2.0 * farthestOff(plain, expected[0])) << factor;
-    }
+    const World plain = scraps(32, false), seamed = scraps(32, true);
+    const auto expected = plain.simplify(3.0, Simplifier::meshoptimizer);
+    const auto pieces = seamed.simplify(3.0, Simplifier::meshoptimizer);  // reached with seams, too
+    EXPECT_FALSE(expected[0].welded);
+    EXPECT_TRUE(pieces[0].welded);
+    EXPECT_LE(farthestOff(seamed, pieces[0]), 1.1 * farthestOff(plain, expected[0]));
 }
 
 TEST(SimplificationAim, RoundsUpAndLeavesSmallPiecesAlone) {
