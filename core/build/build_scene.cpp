@@ -46,6 +46,18 @@ tl::unexpected<Error> stopped(const std::filesystem::path& folder) {
                    "finished blocks are kept: run it again to go on");
 }
 
+// What writers that were killed had begun (AtomicFile). The folder is locked, and nobody else writes into it.
+void removeLeftovers(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (const std::filesystem::path& where : {folder, folder / "blocks"}) {
+        std::vector<std::filesystem::path> leftovers;
+        for (const auto& entry : std::filesystem::directory_iterator(where, ignored)) {
+            if (entry.path().extension() == ".part") leftovers.push_back(entry.path());
+        }
+        for (const std::filesystem::path& file : leftovers) std::filesystem::remove(file, ignored);
+    }
+}
+
 // One building of a scene, or of a part of it.
 class SceneBuilder {
   public:
@@ -139,6 +151,7 @@ Result<BuildReport> buildScene(const BlockSource& source, const BuildSettings& s
     if (Result<void> made = makeFolder(folder); !made) return passOn(made);
     Result<FolderLock> lock = FolderLock::take(folder);
     if (!lock) return passOn(lock);
+    removeLeftovers(folder);
     return SceneBuilder(source, settings, folder, progress, resources, {}, false).buildAll();
 }
 
@@ -152,6 +165,7 @@ Result<BuildReport> buildPart(const BlockSource& source, const BuildSettings& se
 Result<BuildReport> joinParts(const BlockSource& source, const BuildSettings& settings,
                               const std::filesystem::path& folder, const Progress& progress,
                               const BuildResources& resources) {
+    removeLeftovers(folder);
     return SceneBuilder(source, settings, folder, progress, resources, {}, true).buildAll();
 }
 

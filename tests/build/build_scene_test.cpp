@@ -160,6 +160,18 @@ TEST_F(BuildScene, GivesTheSameBytesWithinAMemoryLimit) {
     EXPECT_EQ(files(folder("whole")), files(folder("limited")));
 }
 
+TEST_F(BuildScene, ClearsAwayWhatKilledWritersHadBegun) {
+    ASSERT_TRUE(buildScene(street, settings, folder("a"), goOn));
+    const auto whole = files(folder("a"));
+    for (const char* name : {"blocks/00003.pack.aB3dE6.part", "scene.toml.zZ9yY8.part"})
+        std::ofstream(folder("a") / name) << "half";
+    ASSERT_TRUE(buildScene(street, settings, folder("a"), goOn));
+    EXPECT_EQ(files(folder("a")), whole);
+    std::ofstream(folder("a") / "blocks/00001.pack.aB3dE6.part") << "half";
+    ASSERT_TRUE(joinParts(street, settings, folder("a"), goOn, {}));
+    EXPECT_EQ(files(folder("a")), whole);
+}
+
 TEST_F(BuildScene, TakesUpAStoppedBuildWithTheSameResult) {
     ASSERT_TRUE(buildScene(street, settings, folder("whole"), goOn));
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);

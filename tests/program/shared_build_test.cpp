@@ -85,8 +85,7 @@ TEST_F(SharedBuild, KilledAtAnyMomentGoesOnToTheSameBytes) {
     } while (run.exitCode != 0 && seconds < 600.0);
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_GT(kills, 0);
-    std::map<std::string, std::string> files = filesOf(folder / "killed");
-    EXPECT_EQ(files, alone);
+    EXPECT_EQ(filesOf(folder / "killed"), alone);
 }
 
 TEST(BuildLimits, ThatCannotBeAreWrongUsage) {
