@@ -33,27 +33,24 @@ void tell(const BuildReport& report, const std::filesystem::path& folder) {
 }
 
 void tellPhases(const BuildPhases& phases) {
-    const std::pair<const char*, double> all[] = {
-        {"load", phases.load},     {"textures", phases.textures}, {"simplify", phases.simplify},
-        {"errors", phases.errors}, {"skirts", phases.skirts},     {"dress", phases.dress},
-        {"atlas", phases.atlas},   {"encode", phases.encode},     {"write", phases.write}};
     std::string line = "thread seconds:";
-    for (const auto& [name, seconds] : all) {
+    for (const NamedPhase& phase : kBuildPhases) {
         char text[48];
-        std::snprintf(text, sizeof text, " %s %.2f", name, seconds);
+        std::snprintf(text, sizeof text, " %s %.2f", phase.name, phases.*phase.seconds);
         line += text;
     }
     std::fprintf(stderr, "%s\n", line.c_str());
 }
 
-// Builds with `build(source)` in a child and tells what came of it there; `told` is called with the report.
+// Builds with `build` in a child; `tellReport` is called there with what came of it.
 Result<void> buildInChild(const BuildJob& job, ProgressStyle progress,
                           const std::function<Result<BuildReport>(const BlockSource&, const Progress&)>& build,
                           const std::function<void(const SourceInfo&, BuildReport&)>& tellReport) {
     return runGuarded(job.what, [&]() -> Result<void> {
-        Result<std::unique_ptr<BlockSource>> source = job.openSource();
+        const Progress shown = showProgress(progress);
+        Result<std::unique_ptr<BlockSource>> source = job.openSource(shown);
         if (!source) return passOn(source);
-        Result<BuildReport> report = build(**source, showProgress(progress));
+        Result<BuildReport> report = build(**source, shown);
         endProgress(progress);
         if (!report) return passOn(report);
         tellReport((*source)->info(), *report);
@@ -104,7 +101,8 @@ class SharedBuild {
         if (Result<void> locked = together(lock()); !locked) return locked;
         if (Result<void> built = together(buildShare()); !built) return built;
         if (!ranks_.haveSame(facts_.get()->sourceHash)) {
-            return together(failure(job_.what, {}, "is not the same on all machines", "each must see the same files"));
+            if (!ranks_.isFirst()) return tl::make_unexpected(Error{});
+            return failure(job_.what, {}, "is not the same on all machines", "each must see the same files");
         }
         reused_ = ranks_.sumOf(facts_.get()->reusedBlocks);
         return together(ranks_.isFirst() ? join() : Result<void>());

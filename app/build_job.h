@@ -12,7 +12,7 @@ namespace fb {
 
 struct BuildJob {
     std::string what;  // names the source in errors
-    std::function<Result<std::unique_ptr<BlockSource>>()> openSource;  // called in the child
+    std::function<Result<std::unique_ptr<BlockSource>>(const Progress&)> openSource;  // called in the child
     BuildSettings settings;
     BuildResources resources;
     std::filesystem::path output;

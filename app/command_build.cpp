@@ -7,7 +7,6 @@
 #include "app/build_job.h"
 #include "app/commands.h"
 #include "app/option_text.h"
-#include "app/progress_display.h"
 #include "build/hash_block.h"
 #include "import/city.h"
 #include "import/import_files.h"
@@ -134,9 +133,9 @@ Result<void> runBuild(const BuildCommand& command) {
     const std::size_t files = command.inputs.size() + (command.terrain.empty() ? 0 : 1);
     std::string what = (command.inputs.empty() ? command.terrain : command.inputs.front()).string();
     if (files > 1) what += " and " + std::to_string(files - 1) + " more";
-    const auto openSource = [&] {
+    const auto openSource = [&](const Progress& progress) {
         Result<std::unique_ptr<BlockSource>> source;
-        if (!command.inputs.empty()) source = importFiles(command.inputs, *options, showProgress(command.progress));
+        if (!command.inputs.empty()) source = importFiles(command.inputs, *options, progress);
         if (source && !command.terrain.empty()) source = addTerrain(std::move(*source), *terrain);
         return source;
     };
@@ -151,7 +150,7 @@ Result<void> runCity(const CityCommand& command) {
     Result<BuildResources> resources = buildResources(command.memoryLimit, command.threads);
     if (!resources) return passOn(resources);
     if (Result<void> named = checkOutput(command.output); !named) return named;
-    const auto openSource = [&] { return makeCity(*options); };
+    const auto openSource = [&](const Progress&) { return makeCity(*options); };
     return runJob({"city", openSource, *settings, *resources, command.output, command.progress, command.phases});
 }
 

@@ -6,11 +6,7 @@
 namespace fb {
 
 void BuildPhases::add(const BuildPhases& other) {
-    for (double BuildPhases::*phase : {&BuildPhases::load, &BuildPhases::textures, &BuildPhases::simplify,
-                                       &BuildPhases::errors, &BuildPhases::skirts, &BuildPhases::dress,
-                                       &BuildPhases::atlas, &BuildPhases::encode, &BuildPhases::write}) {
-        this->*phase += other.*phase;
-    }
+    for (const NamedPhase& phase : kBuildPhases) this->*phase.seconds += other.*phase.seconds;
 }
 
 void BuildReport::add(BuildReport&& part) {

@@ -20,6 +20,15 @@ struct BuildPhases {
 
     void add(const BuildPhases& other);
 };
+struct NamedPhase {
+    const char* name;
+    double BuildPhases::*seconds;
+};
+// In the order of the work.
+inline constexpr NamedPhase kBuildPhases[] = {
+    {"load", &BuildPhases::load},     {"textures", &BuildPhases::textures}, {"simplify", &BuildPhases::simplify},
+    {"errors", &BuildPhases::errors}, {"skirts", &BuildPhases::skirts},     {"dress", &BuildPhases::dress},
+    {"atlas", &BuildPhases::atlas},   {"encode", &BuildPhases::encode},     {"write", &BuildPhases::write}};
 
 // What happened to the pieces; told to the user and kept in tests.
 struct BuildReport {

@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 #include "base/check.h"
+#include "build/joiner.h"
 #include "build/node_triangles.h"
 
 namespace fb {
@@ -251,22 +252,10 @@ std::vector<NodeTriangle> dressWelded(const WeldedDress& dress, const Simplified
 }
 
 std::vector<std::uint32_t> chartsOfWedges(const BlockMesh& mesh, std::span<const MeshTriangle> triangles) {
+    Joiner joiner(mesh.wedges.size());
+    for (const MeshTriangle& t : triangles) joiner.join(joiner.join(t.wedges.x, t.wedges.y), t.wedges.z);
     std::vector<std::uint32_t> chart(mesh.wedges.size());
-    std::iota(chart.begin(), chart.end(), 0u);
-    const auto find = [&](std::uint32_t wedge) {
-        while (chart[wedge] != wedge) {
-            chart[wedge] = chart[chart[wedge]];
-            wedge = chart[wedge];
-        }
-        return wedge;
-    };
-    for (const MeshTriangle& triangle : triangles) {
-        for (int k = 1; k < 3; ++k) {
-            const std::uint32_t a = find(triangle.wedges.x), b = find(triangle.wedges[k]);
-            chart[std::max(a, b)] = std::min(a, b);
-        }
-    }
-    for (std::uint32_t wedge = 0; wedge < chart.size(); ++wedge) chart[wedge] = find(wedge);
+    for (std::uint32_t wedge = 0; wedge < chart.size(); ++wedge) chart[wedge] = joiner.find(wedge);
     return chart;
 }
 

@@ -3,10 +3,10 @@
 // into parts that together need less room.
 #pragma once
 
-#include <numeric>
 #include <span>
 #include <vector>
 
+#include "build/joiner.h"
 #include "build/node_triangles.h"
 
 namespace fb {
@@ -16,28 +16,6 @@ struct Island {
     glm::dvec2 low{0.0},
         high{0.0};          // source texels, moved by whole repeats so that `low` lies in the picture
     glm::dvec2 shift{0.0};  // what was subtracted
-};
-
-class Joiner {
-  public:
-    explicit Joiner(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-    // The lower number stands for both.
-    std::uint32_t join(std::uint32_t a, std::uint32_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-        return std::min(a, b);
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
 };
 
 [[nodiscard]] glm::dvec2 textureSize(const Surface& surface, const BlockTextures& textures);

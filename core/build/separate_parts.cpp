@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "build/joiner.h"
+
 namespace fb {
 namespace {
 
@@ -28,17 +30,15 @@ class PartFinder {
 
     // In the order of their first triangles.
     std::vector<Part> find() {
-        std::vector<std::uint32_t> first(triangles_.size());
-        for (std::size_t i = 0; i < triangles_.size(); ++i) {
-            const glm::uvec3& t = triangles_[i];
-            first[i] = local(t.x);
-            unite(first[i], local(t.y));
-            unite(first[i], local(t.z));
-        }
+        std::vector<glm::uvec3> numbered;
+        numbered.reserve(triangles_.size());
+        for (const glm::uvec3& t : triangles_) numbered.emplace_back(number(t.x), number(t.y), number(t.z));
+        Joiner joiner(count_);
+        for (const glm::uvec3& t : numbered) joiner.join(joiner.join(t.x, t.y), t.z);
         std::vector<Part> parts;
-        std::vector<std::uint32_t> partOf(root_.size(), kNone);
+        std::vector<std::uint32_t> partOf(count_, kNone);
         for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-            std::uint32_t& part = partOf[rootOf(first[i])];
+            std::uint32_t& part = partOf[joiner.find(numbered[i].x)];
             if (part == kNone) {
                 part = static_cast<std::uint32_t>(parts.size());
                 parts.emplace_back();
@@ -63,26 +63,15 @@ class PartFinder {
         part.centre += area / 3.0 * (p[0] + p[1] + p[2]);
         for (const glm::dvec3& corner : p) part.bounds.grow(corner);
     }
-    std::uint32_t local(std::uint32_t position) {
-        const auto next = static_cast<std::uint32_t>(root_.size());
-        const std::uint32_t known = numbering_.findOrSet(position, next);
-        if (known != kNone) return known;
-        root_.push_back(next);
-        return next;
-    }
-    std::uint32_t rootOf(std::uint32_t i) {
-        while (root_[i] != i) i = root_[i] = root_[root_[i]];
-        return i;
-    }
-    void unite(std::uint32_t a, std::uint32_t b) {
-        a = rootOf(a), b = rootOf(b);
-        root_[std::max(a, b)] = std::min(a, b);
+    std::uint32_t number(std::uint32_t position) {
+        const std::uint32_t known = numbering_.findOrSet(position, count_);
+        return known == kNone ? count_++ : known;
     }
 
     const BlockMesh& mesh_;
     std::span<const glm::uvec3> triangles_;
     Numbering& numbering_;
-    std::vector<std::uint32_t> root_;  // by number of a position
+    std::uint32_t count_ = 0;  // of positions
 };
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include "base/clock.h"
 #include "build/build_scene.h"
 #include "commands.h"
-#include "name_phases.h"
 #include "open_source.h"
 #include "simplify_plainly.h"
 #include "worlds/scratch_folder.h"
@@ -58,7 +57,7 @@ Result<void> compareRatio(const BenchOptions& options) {
     std::printf("%-22s %10.4f %14.0f %9.2f   (%.4f to %.4f s)\n", "whole build", build, triangles / build,
                 build / one, *std::min_element(whole.begin(), whole.end()),
                 *std::max_element(whole.begin(), whole.end()));
-    for (const auto& [name, member] : kPhases) {
+    for (const auto& [name, member] : kBuildPhases) {
         std::vector<double> seconds;
         for (const BuildPhases& p : phases) seconds.push_back(p.*member);
         const double median = medianOf(seconds);

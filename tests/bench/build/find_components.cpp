@@ -1,5 +1,7 @@
 #include "find_components.h"
 
+#include <algorithm>
+
 namespace fb::bench {
 
 Components::Components(const PreparedBlock& block)
@@ -32,6 +34,13 @@ std::vector<std::size_t> Components::drawnTriangles(std::size_t level) const {
     return counts;
 }
 
+bool Components::isStoodFor(std::uint32_t component, std::size_t level) const {
+    const auto isOfComponent = [&](std::uint32_t position) { return ofPosition_[position] == component; };
+    return std::ranges::any_of(block_.levels[block_.levelFor(level)].simplified, [&](const SimplifiedPiece& piece) {
+        return std::ranges::any_of(piece.replaced, isOfComponent);
+    });
+}
+
 VanishedParts Components::vanishedAt(std::size_t level) const {
     VanishedParts result;
     const std::vector<std::size_t> drawn = drawnTriangles(level);
@@ -39,6 +48,10 @@ VanishedParts Components::vanishedAt(std::size_t level) const {
         if (triangles_[c] == 0) continue;
         ++result.parts;
         if (drawn[c] > 0) continue;
+        if (isStoodFor(static_cast<std::uint32_t>(c), level)) {
+            ++result.stoodFor;
+            continue;
+        }
         ++result.vanished;
         result.triangles += triangles_[c];
     }

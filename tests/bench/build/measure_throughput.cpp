@@ -3,7 +3,6 @@
 
 #include "commands.h"
 #include "copied_source.h"
-#include "name_phases.h"
 #include "open_source.h"
 #include "run_apart.h"
 #include "worlds/scratch_folder.h"
@@ -71,7 +70,7 @@ Result<void> measureThroughput(const BenchOptions& options) {
         texels > 0.0 ? static_cast<double>(build.store.texelsDecoded) / texels : 0.0,
         build.store.startedOver);
     std::printf("phases, thread seconds:");
-    for (const auto& [phase, seconds] : kPhases) std::printf(" %s %.2f", phase, build.phases.*seconds);
+    for (const auto& [phase, seconds] : kBuildPhases) std::printf(" %s %.2f", phase, build.phases.*seconds);
     std::printf("\n");
     return {};
 }

@@ -39,9 +39,10 @@ void tellPart(const MeasuredLevel& measured, const TriangleOrigin& from) {
     const Components components(measured.blocks[from.block]);
     const std::uint32_t part = components.of(from.positions.x);
     const std::size_t left = components.drawnTriangles(measured.level)[part];
+    const char* gone = components.isStoodFor(part, measured.level) ? "has a stand-in" : "vanished";
     std::printf("part of %zu triangles, %.1f long, %s; ", components.sourceTriangles(part),
                 measured.scale * components.longestSideMetres(part),
-                left == 0 ? "vanished" : (std::to_string(left) + " left").c_str());
+                left == 0 ? gone : (std::to_string(left) + " left").c_str());
 }
 
 void tellPlace(const MeasuredLevel& measured, const SampledDistance& d) {
@@ -54,11 +55,12 @@ void tellVanished(const MeasuredLevel& measured) {
     for (const PreparedBlock& block : measured.blocks) {
         const VanishedParts here = Components(block).vanishedAt(measured.level);
         all.parts += here.parts;
+        all.stoodFor += here.stoodFor;
         all.vanished += here.vanished;
         all.triangles += here.triangles;
     }
-    std::printf("        vanished: %zu of %zu connected parts, with %zu triangles of the source\n",
-                all.vanished, all.parts, all.triangles);
+    std::printf("        of %zu connected parts %zu have stand-ins, %zu vanished, with %zu triangles of the source\n",
+                all.parts, all.stoodFor, all.vanished, all.triangles);
 }
 
 }  // namespace
