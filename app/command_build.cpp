@@ -85,16 +85,16 @@ Result<void> checkOutput(const std::filesystem::path& output) {
 }
 
 // Threads and bytes that a build may take.
-Result<BuildResources> buildResources(const std::string& memoryLimit, std::uint64_t threads) {
+Result<BuildResources> buildResources(const BuildingOptions& building) {
     BuildResources resources;
     constexpr std::uint64_t kMostThreads = 4096;
-    if (threads > kMostThreads) return usageFailure("--threads " + std::to_string(threads), "is more than 4096");
-    resources.threads = static_cast<std::uint32_t>(threads);
-    if (memoryLimit.empty()) return resources;
-    const Result<std::uint64_t> bytes = parseCount(memoryLimit);
-    if (!bytes) return usageFailure("--memory-limit " + memoryLimit, bytes.error().reason, "as in 800M or 4G");
+    if (building.threads > kMostThreads) return usageFailure("--threads " + std::to_string(building.threads), "is more than 4096");
+    resources.threads = static_cast<std::uint32_t>(building.threads);
+    if (building.memoryLimit.empty()) return resources;
+    const Result<std::uint64_t> bytes = parseCount(building.memoryLimit);
+    if (!bytes) return usageFailure("--memory-limit " + building.memoryLimit, bytes.error().reason, "as in 800M or 4G");
     if (*bytes < kLeastMemoryLimitBytes) {
-        return usageFailure("--memory-limit " + memoryLimit, "is too little to build in", "at least 256M");
+        return usageFailure("--memory-limit " + building.memoryLimit, "is too little to build in", "at least 256M");
     }
     resources.memoryLimitBytes = *bytes;
     return resources;
@@ -120,15 +120,15 @@ Result<CityOptions> cityOptions(const CityCommand& command) {
 }  // namespace
 
 Result<void> runBuild(const BuildCommand& command) {
-    Result<BuildSettings> settings = buildSettings(command.sets);
+    Result<BuildSettings> settings = buildSettings(command.building.sets);
     if (!settings) return passOn(settings);
     Result<ImportOptions> options = importOptions(command);
     if (!options) return passOn(options);
-    if (Result<void> named = checkOutput(command.output); !named) return named;
+    if (Result<void> named = checkOutput(command.building.output); !named) return named;
     if (Result<void> sound = checkInputs(command); !sound) return sound;
     Result<TerrainOptions> terrain = terrainOptions(command, *options);
     if (!terrain) return passOn(terrain);
-    Result<BuildResources> resources = buildResources(command.memoryLimit, command.threads);
+    Result<BuildResources> resources = buildResources(command.building);
     if (!resources) return passOn(resources);
     const std::size_t files = command.inputs.size() + (command.terrain.empty() ? 0 : 1);
     std::string what = (command.inputs.empty() ? command.terrain : command.inputs.front()).string();
@@ -139,19 +139,19 @@ Result<void> runBuild(const BuildCommand& command) {
         if (source && !command.terrain.empty()) source = addTerrain(std::move(*source), *terrain);
         return source;
     };
-    return runJob({what, openSource, *settings, *resources, command.output, command.progress, command.phases});
+    return runJob({what, openSource, *settings, *resources, command.building.output, command.building.progress, command.building.phases});
 }
 
 Result<void> runCity(const CityCommand& command) {
-    Result<BuildSettings> settings = buildSettings(command.sets);
+    Result<BuildSettings> settings = buildSettings(command.building.sets);
     if (!settings) return passOn(settings);
     Result<CityOptions> options = cityOptions(command);
     if (!options) return passOn(options);
-    Result<BuildResources> resources = buildResources(command.memoryLimit, command.threads);
+    Result<BuildResources> resources = buildResources(command.building);
     if (!resources) return passOn(resources);
-    if (Result<void> named = checkOutput(command.output); !named) return named;
+    if (Result<void> named = checkOutput(command.building.output); !named) return named;
     const auto openSource = [&](const Progress&) { return makeCity(*options); };
-    return runJob({"city", openSource, *settings, *resources, command.output, command.progress, command.phases});
+    return runJob({"city", openSource, *settings, *resources, command.building.output, command.building.progress, command.building.phases});
 }
 
 std::filesystem::path builtInCityFolder() {
@@ -179,8 +179,8 @@ Result<std::filesystem::path> builtInCity(ProgressStyle progress) {
     if (Result<void> made = makeFolder(folder.parent_path()); !made) return passOn(made);
     std::fprintf(stderr, "making the built-in city in %s (once)\n", folder.string().c_str());
     CityCommand command;
-    command.output = folder;
-    command.progress = progress;
+    command.building.output = folder;
+    command.building.progress = progress;
     if (Result<void> built = runCity(command); !built) return passOn(built);
     return folder;
 }

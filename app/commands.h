@@ -13,9 +13,19 @@ namespace fb {
 
 enum class ProgressStyle { automatic, bar, lines, none };
 
-struct BuildCommand {
-    std::vector<std::filesystem::path> inputs;
+// What every command that builds a scene takes.
+struct BuildingOptions {
     std::filesystem::path output;
+    std::vector<std::string> sets;  // --set build.k=v
+    std::string memoryLimit;        // bytes with K, M or G; empty: none
+    std::uint64_t threads = 0;      // 0: as many as there are cores
+    ProgressStyle progress = ProgressStyle::automatic;
+    bool phases = false;
+};
+
+struct BuildCommand {
+    BuildingOptions building;
+    std::vector<std::filesystem::path> inputs;
     std::string up = "auto";
     std::string split = "auto";
     std::uint64_t blockTriangles = 40000;
@@ -23,23 +33,13 @@ struct BuildCommand {
     std::string name;
     std::filesystem::path terrain, drape;         // a height map, alone or below the meshes, and a picture on it
     std::string cellSize, heightScale, noData;    // numbers; empty: as the file says
-    std::vector<std::string> sets;  // --set build.k=v
-    std::string memoryLimit;        // bytes with K, M or G; empty: none
-    std::uint64_t threads = 0;      // 0: as many as there are cores
-    ProgressStyle progress = ProgressStyle::automatic;
-    bool phases = false;
 };
 [[nodiscard]] Result<void> runBuild(const BuildCommand& command);
 
 struct CityCommand {
-    std::filesystem::path output;
+    BuildingOptions building;
     std::string blocks, triangles, texels, seed;  // numbers with K, M or G; empty: the default
     bool terrain = false;                         // on hills
-    std::vector<std::string> sets;
-    std::string memoryLimit;
-    std::uint64_t threads = 0;
-    ProgressStyle progress = ProgressStyle::automatic;
-    bool phases = false;
 };
 [[nodiscard]] Result<void> runCity(const CityCommand& command);
 // The built-in city's folder in the user's cache; made there first when it is missing.

@@ -31,19 +31,18 @@ const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressS
                                                               {"lines", ProgressStyle::lines},
                                                               {"none", ProgressStyle::none}};
 
-// What `build` and `city` have in common.
-template <class Command>
-void addBuilding(CLI::App* command, Command& c) {
+void addProgress(CLI::App* command, ProgressStyle& style) {
+    command->add_option("--progress", style, "How progress is shown: auto, bar, lines (for programs), none")
+        ->transform(CLI::Transformer(kProgressStyles, CLI::ignore_case).description(""));
+}
+
+void addBuilding(CLI::App* command, BuildingOptions& c) {
     command->add_option("-o,--output", c.output, "The scene's folder, NAME.fbscene")->required();
     command->add_option("--set", c.sets, "Set a knob: build.NAME=VALUE");
     command->add_option("--memory-limit", c.memoryLimit, "Memory for blocks and textures while building, as in 800M or 4G");
     command->add_option("--threads", c.threads, "Threads that build; 0 or left out: one a core")->check(kNotNegative);
     command->add_flag("--phases", c.phases, "Tell at the end where the time went");
-}
-
-void addProgress(CLI::App* command, ProgressStyle& style) {
-    command->add_option("--progress", style, "How progress is shown: auto, bar, lines (for programs), none")
-        ->transform(CLI::Transformer(kProgressStyles, CLI::ignore_case).description(""));
+    addProgress(command, c.progress);
 }
 
 void addBuild(CLI::App& program, CommandLine& line) {
@@ -60,8 +59,7 @@ void addBuild(CLI::App& program, CommandLine& line) {
     command->add_option("--height-scale", b.heightScale, "Metres a unit of the height map");
     command->add_option("--no-data", b.noData, "Value that means no height, instead of what a GeoTIFF says");
     command->add_option("--name", b.name, "The scene's name");
-    addBuilding(command, b);
-    addProgress(command, b.progress);
+    addBuilding(command, b.building);
     command->callback([&line] { line.run = [&line] { return runBuild(line.build); }; });
 }
 
@@ -73,8 +71,7 @@ void addCity(CLI::App& program, CommandLine& line) {
     command->add_option("--texels", c.texels, "Texels of the whole city, as in 24M");
     command->add_option("--seed", c.seed, "Another seed makes another city");
     command->add_flag("--terrain", c.terrain, "Put the city on hills, with the country around it");
-    addBuilding(command, c);
-    addProgress(command, c.progress);
+    addBuilding(command, c.building);
     command->callback([&line] { line.run = [&line] { return runCity(line.city); }; });
 }
 

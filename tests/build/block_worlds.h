@@ -34,4 +34,28 @@ struct Sheet {
 [[nodiscard]] double areaOf(const SourceMesh& mesh);
 [[nodiscard]] double areaOf(const BlockMesh& mesh, std::span<const MeshTriangle> triangles);  // square metres
 
+// Adds a square of two triangles that shows the texels [x, x + side) x [y, y + side) of a texture of `size`.
+inline void addSquare(SourceBlock& block, std::uint32_t material, const glm::vec2& corner, float side, const glm::vec2& size) {
+    const SourceMesh sheet = makeSheet({1, 1, 1.0, 1.0, {}});
+    SourceMesh& mesh = block.mesh;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (std::size_t v = 0; v < sheet.positions.size(); ++v) {
+        mesh.positions.push_back(sheet.positions[v] + glm::dvec3(2.0 * first, 0, 0));
+        mesh.uvs.push_back((corner + sheet.uvs[v] * side) / size);
+    }
+    for (const glm::uvec3& t : sheet.triangles) {
+        mesh.triangles.push_back(t + first);
+        mesh.materials.push_back(material);
+    }
+}
+
+inline SourceBlock emptyBlock(std::vector<SourceTexture> textures) {
+    SourceBlock block;
+    block.name = "test";
+    for (std::size_t i = 0; i < textures.size(); ++i)
+        block.materials.push_back({"m", glm::vec4(1.0f), static_cast<int>(i), false});
+    block.textures = std::move(textures);
+    return block;
+}
+
 }  // namespace fb::test

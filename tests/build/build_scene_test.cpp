@@ -6,17 +6,16 @@
 
 #include <atomic>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
 
 #include "block_worlds.h"
+#include "worlds/files_of.h"
 
 namespace fb {
 namespace {
 
 namespace fs = std::filesystem;
 using test::blockOf;
+using test::filesOf;
 using test::makeSheet;
 
 // Five blocks side by side: 0, 2 and 4 textured, 1 not, 3 without any triangle when `withGap`.
@@ -67,19 +66,6 @@ class BuildScene : public testing::Test {
     [[nodiscard]] fs::path folder(const std::string& name) const { return root_ / name; }
     static bool goOn(std::string_view, double) { return true; }
 
-    // Every file of a scene folder, by its path in the folder.
-    static std::map<std::string, std::string> files(const fs::path& folder) {
-        std::map<std::string, std::string> result;
-        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-            if (!entry.is_regular_file()) continue;
-            std::ifstream in(entry.path(), std::ios::binary);
-            std::ostringstream bytes;
-            bytes << in.rdbuf();
-            result[fs::relative(entry.path(), folder).string()] = bytes.str();
-        }
-        return result;
-    }
-
     BuildSettings settings;
     Street street;
 
@@ -115,9 +101,9 @@ TEST_F(BuildScene, GivesTheSameBytesForAnyNumberOfThreads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         ASSERT_TRUE(buildScene(street, settings, folder(std::to_string(threads)), goOn));
     }
-    EXPECT_EQ(files(folder("1")), files(folder("2")));
-    EXPECT_EQ(files(folder("1")), files(folder("7")));
-    EXPECT_EQ(files(folder("1")).size(), 7u);  // hierarchy.bin, scene.toml, five packs
+    EXPECT_EQ(filesOf(folder("1")), filesOf(folder("2")));
+    EXPECT_EQ(filesOf(folder("1")), filesOf(folder("7")));
+    EXPECT_EQ(filesOf(folder("1")).size(), 7u);  // hierarchy.bin, scene.toml, five packs
 }
 
 TEST_F(BuildScene, GivesTheSameBytesInParts) {
@@ -137,7 +123,7 @@ TEST_F(BuildScene, GivesTheSameBytesInParts) {
         ASSERT_TRUE(joined) << joined.error().oneLine();
         EXPECT_EQ(joined->nodes, nodes);
         EXPECT_EQ(joined->leafTriangles, 4u * 512u);
-        EXPECT_EQ(files(here), files(folder("whole")));
+        EXPECT_EQ(filesOf(here), filesOf(folder("whole")));
     }
 }
 
@@ -157,19 +143,19 @@ TEST_F(BuildScene, GivesTheSameBytesWithinAMemoryLimit) {
     const Result<BuildReport> limited = buildScene(street, settings, folder("limited"), goOn, resources);
     ASSERT_TRUE(limited);
     EXPECT_TRUE(limited->warnings.empty());
-    EXPECT_EQ(files(folder("whole")), files(folder("limited")));
+    EXPECT_EQ(filesOf(folder("whole")), filesOf(folder("limited")));
 }
 
 TEST_F(BuildScene, ClearsAwayWhatKilledWritersHadBegun) {
     ASSERT_TRUE(buildScene(street, settings, folder("a"), goOn));
-    const auto whole = files(folder("a"));
+    const auto whole = filesOf(folder("a"));
     for (const char* name : {"blocks/00003.pack.aB3dE6.part", "scene.toml.zZ9yY8.part"})
         std::ofstream(folder("a") / name) << "half";
     ASSERT_TRUE(buildScene(street, settings, folder("a"), goOn));
-    EXPECT_EQ(files(folder("a")), whole);
+    EXPECT_EQ(filesOf(folder("a")), whole);
     std::ofstream(folder("a") / "blocks/00001.pack.aB3dE6.part") << "half";
     ASSERT_TRUE(joinParts(street, settings, folder("a"), goOn, {}));
-    EXPECT_EQ(files(folder("a")), whole);
+    EXPECT_EQ(filesOf(folder("a")), whole);
 }
 
 TEST_F(BuildScene, TakesUpAStoppedBuildWithTheSameResult) {
@@ -184,7 +170,7 @@ TEST_F(BuildScene, TakesUpAStoppedBuildWithTheSameResult) {
     const Result<BuildReport> resumed = buildScene(street, settings, folder("resumed"), goOn);
     ASSERT_TRUE(resumed) << resumed.error().oneLine();
     EXPECT_EQ(resumed->reusedBlocks, 3u);  // three of five were done when the fraction passed one half
-    EXPECT_EQ(files(folder("whole")), files(folder("resumed")));
+    EXPECT_EQ(filesOf(folder("whole")), filesOf(folder("resumed")));
 }
 
 TEST_F(BuildScene, ReusesNothingBuiltWithOtherSettingsOrFromOtherBlocks) {

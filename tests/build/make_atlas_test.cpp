@@ -10,7 +10,6 @@
 #include "build/make_charts.h"
 #include "build/pack_atlas.h"
 #include "build/quantise_block.h"
-#include "scenefile/scene.h"
 
 namespace fb {
 namespace {
@@ -292,45 +291,6 @@ TEST(MakeAtlas, DoesNotLetUnusedBackgroundIntoCoarseLevels) {
     for (const std::uint8_t value : atlas.image->pixels) ASSERT_EQ(value, 200);
 }
 
-RC_GTEST_PROP(PackAtlas, KeepsChartsApartInsideAnAtlasOfTheClasses, (std::uint64_t seed)) {
-    Random random(seed);
-    std::vector<Chart> charts(1 + random.index(60));
-    for (Chart& chart : charts) {
-        chart.width = 1 + static_cast<int>(random.index(40));
-        chart.height = 1 + static_cast<int>(random.index(random.index(5) == 0 ? 120 : 20));
-        chart.aligned = random.index(3) == 0;
-    }
-    AtlasSize size;
-    RC_ASSERT(packAtlas(charts, 1024, size));
-    RC_ASSERT(static_cast<int>(atlasSide(static_cast<std::uint32_t>(size.width))) == size.width);
-    RC_ASSERT(static_cast<int>(atlasSide(static_cast<std::uint32_t>(size.height))) == size.height);
-    for (std::size_t i = 0; i < charts.size(); ++i) {
-        const Chart& a = charts[i];
-        RC_ASSERT(a.x >= 0);
-        RC_ASSERT(a.y >= 0);
-        RC_ASSERT(a.x + a.width <= size.width);
-        RC_ASSERT(a.y + a.height <= size.height);
-        for (std::size_t j = 0; j < i; ++j) {
-            const Chart& b = charts[j];
-            const int gap = std::max(std::max(b.x - a.x - a.width, a.x - b.x - b.width),
-                                     std::max(b.y - a.y - a.height, a.y - b.y - b.height));
-            RC_ASSERT(gap >= 2 * kGutter);
-        }
-    }
-}
-
-TEST(PackAtlas, SaysWhenNothingFits) {
-    std::vector<Chart> charts(1);
-    charts[0].width = 65;
-    charts[0].height = 3;
-    AtlasSize size;
-    EXPECT_FALSE(packAtlas(charts, 64, size));
-    charts[0].width = 64;
-    ASSERT_TRUE(packAtlas(charts, 64, size));
-    EXPECT_EQ(size.width, 64);
-    EXPECT_EQ(size.height, 4);
-}
-
 // Random islands in a smooth picture, at any scale: wherever a triangle is drawn, the atlas has the colour
 // that the picture has there.
 RC_GTEST_PROP(MakeAtlas, ShowsThePicturesColourEverywhereOnEveryTriangle, (std::uint64_t seed)) {
@@ -374,51 +334,6 @@ RC_GTEST_PROP(MakeAtlas, ShowsThePicturesColourEverywhereOnEveryTriangle, (std::
         const double tolerance = 1.5 + 0.9 * 0.75 / scale;
         for (int c = 0; c < 3; ++c) RC_ASSERT(std::abs(shown[c] - wanted[c]) <= tolerance);
     }
-}
-
-TEST(EncodeTexture, GivesBackPngTexelsExactlyAndJpegTexelsNearly) {
-    Image image{24, 16, 3, {}, false};
-    for (int y = 0; y < 16; ++y) {
-        for (int x = 0; x < 24; ++x) {
-            const glm::u8vec3 colour(x * 10, y * 15, 128);
-            for (int c = 0; c < 3; ++c) image.pixels.push_back(colour[c]);
-        }
-    }
-    for (const PayloadCodec codec : {PayloadCodec::png, PayloadCodec::jpeg}) {
-        Result<NodeTexture> texture = encodeTexture(image, codec, 92);
-        ASSERT_TRUE(texture) << texture.error().oneLine();
-        EXPECT_EQ(texture->width, 24);
-        EXPECT_EQ(texture->channels, 3);
-        NodeData node;
-        node.mesh.vertices.resize(3);
-        node.mesh.indices = {0, 1, 2};
-        node.mesh.texturedTriangles = 1;
-        node.texture = *texture;
-        const Result<DecodedNode> decoded = decodeNode(node, BlockGrid{}, "test");
-        ASSERT_TRUE(decoded) << decoded.error().oneLine();
-        for (std::size_t i = 0; i < 24 * 16; ++i) {
-            for (std::size_t c = 0; c < 3; ++c) {
-                EXPECT_NEAR(decoded->texels[i * 4 + c], image.pixels[i * 3 + c],
-                            codec == PayloadCodec::png ? 0 : 6);
-            }
-        }
-    }
-}
-
-TEST(EncodeTexture, KeepsColoursUnderTransparentTexels) {
-    Image image{4, 4, 4, {}, false};
-    for (int i = 0; i < 16; ++i)
-        image.pixels.insert(image.pixels.end(), {200, 100, 50, static_cast<std::uint8_t>(i * 17)});
-    Result<NodeTexture> texture = encodeTexture(image, PayloadCodec::png, 92);
-    ASSERT_TRUE(texture);
-    NodeData node;
-    node.mesh.vertices.resize(3);
-    node.mesh.indices = {0, 1, 2};
-    node.mesh.texturedTriangles = 1;
-    node.texture = *texture;
-    const Result<DecodedNode> decoded = decodeNode(node, BlockGrid{}, "test");
-    ASSERT_TRUE(decoded) << decoded.error().oneLine();
-    EXPECT_EQ(std::vector<std::uint8_t>(decoded->texels.begin(), decoded->texels.begin() + 64), image.pixels);
 }
 
 }  // namespace

@@ -1,16 +1,11 @@
 // What a block holds of its textures: tiles, their halves, what fills the rest, and the colours that arrive in atlases.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <sstream>
 
 #include "base/random.h"
 #include "block_worlds.h"
-#include "build/build_scene.h"
 #include "build/make_atlas.h"
 #include "build/quantise_block.h"
 #include "build/spread_texels.h"
@@ -20,36 +15,13 @@
 namespace fb {
 namespace {
 
+using test::addSquare;
 using test::blockOf;
-using test::makeSheet;
+using test::emptyBlock;
 using test::mixedBytes;
 using test::paintImage;
 using test::PictureKind;
 using test::writePicture;
-
-// Adds a square of two triangles that shows the texels [x, x + side) x [y, y + side) of a texture of `size`.
-void addSquare(SourceBlock& block, std::uint32_t material, const glm::vec2& corner, float side, const glm::vec2& size) {
-    const SourceMesh sheet = makeSheet({1, 1, 1.0, 1.0, {}});
-    SourceMesh& mesh = block.mesh;
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (std::size_t v = 0; v < sheet.positions.size(); ++v) {
-        mesh.positions.push_back(sheet.positions[v] + glm::dvec3(2.0 * first, 0, 0));
-        mesh.uvs.push_back((corner + sheet.uvs[v] * side) / size);
-    }
-    for (const glm::uvec3& t : sheet.triangles) {
-        mesh.triangles.push_back(t + first);
-        mesh.materials.push_back(material);
-    }
-}
-
-SourceBlock emptyBlock(std::vector<SourceTexture> textures) {
-    SourceBlock block;
-    block.name = "test";
-    for (std::size_t i = 0; i < textures.size(); ++i)
-        block.materials.push_back({"m", glm::vec4(1.0f), static_cast<int>(i), false});
-    block.textures = std::move(textures);
-    return block;
-}
 
 struct Dressed {
     BlockTextures textures;
@@ -312,96 +284,6 @@ TEST(TextureTiles, AreSampledNearbyWhereATileIsNotThere) {
     EXPECT_EQ(sample(100.5, 90.5), glm::vec4(100, 90, 0, 255));
     EXPECT_EQ(sample(128.0, 90.5), glm::vec4(127, 90, 0, 255));   // at the tile's edge
     EXPECT_EQ(sample(250.5, 250.5), glm::vec4(127, 127, 0, 255));  // two tiles away
-}
-
-// Six blocks of one row of tiles each that share two textures in files.
-class SharedTextures : public BlockSource {
-  public:
-    SharedTextures(std::vector<SourceTexture> textures, const glm::vec2& size)
-        : textures_(std::move(textures)), size_(size) {
-        info_.name = "shared";
-    }
-    [[nodiscard]] const SourceInfo& info() const override { return info_; }
-    [[nodiscard]] std::size_t blockCount() const override { return 6; }
-    [[nodiscard]] Result<SourceBlock> load(std::size_t index) const override {
-        SourceBlock block = emptyBlock(textures_);
-        block.name = "block " + std::to_string(index);
-        for (std::uint32_t i = 0; i < 4; ++i) {
-            const auto x = static_cast<float>(i * 120 + 5), y = static_cast<float>(5 - static_cast<int>(index)) * 80.0f;
-            addSquare(block, i % 2, {x, y}, 70, size_);
-        }
-        return block;
-    }
-
-  private:
-    std::vector<SourceTexture> textures_;
-    glm::vec2 size_;
-    SourceInfo info_;
-};
-
-std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
-    std::map<std::string, std::string> result;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-        if (!entry.is_regular_file()) continue;
-        std::ifstream in(entry.path(), std::ios::binary);
-        std::ostringstream bytes;
-        bytes << in.rdbuf();
-        result[std::filesystem::relative(entry.path(), folder).string()] = bytes.str();
-    }
-    return result;
-}
-
-TEST(TextureTiles, AreDecodedAndHashedOnceABuildAndDoNotDependOnThreadsOrCache) {
-    const ScratchFolder folder;
-    const PictureKind rows{512, 512, 3}, tiles{512, 512, 3, OIIO::TypeDesc::UINT8, 64};
-    ASSERT_TRUE(writePicture(folder / "a.png", rows, mixedBytes(rows)));
-    ASSERT_TRUE(writePicture(folder / "b.tif", tiles, mixedBytes(tiles)));
-    const SharedTextures source({{"a", folder / "a.png", {}, {}}, {"b", folder / "b.tif", {}, {}}}, {512, 512});
-    const Result<BuildReport> large = buildScene(source, BuildSettings{}, folder / "large", nullptr);
-    ASSERT_TRUE(large) << large.error().oneLine();
-    EXPECT_TRUE(large->warnings.empty());
-    EXPECT_EQ(large->textures.opened, 2u);
-    EXPECT_EQ(large->textures.filesHashed, 2u);
-    EXPECT_EQ(large->textures.startedOver, 0u);
-    // Of the file in rows everything, of the file in tiles what the squares touch: in each row of squares, columns 125
-    // to 195 and 365 to 435 are tiles 1, 2, 3 and 5, 6; rows 5 to 475 are all eight.
-    EXPECT_EQ(large->textures.texelsDecoded, 512u * 512u + 5u * 8u * 64u * 64u);
-    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const Result<BuildReport> small = buildScene(source, BuildSettings{}, folder / "small", nullptr, {.textureCacheBytes = 0});
-    ASSERT_TRUE(small) << small.error().oneLine();
-    EXPECT_EQ(small->textures.opened, 2u);
-    EXPECT_EQ(filesOf(folder / "large"), filesOf(folder / "small"));
-    EXPECT_EQ(filesOf(folder / "large").size(), 8u);
-}
-
-// The search for many points at once finds what a search for each finds.
-RC_GTEST_PROP(PieceSurface, FindsTheClosestPointAmongItsCandidates, (std::uint64_t seed)) {
-    Random random(seed);
-    SourceMesh sheet = makeSheet({12, 12, 12.0, 12.0, [&](double, double) { return random.uniform(-0.8, 0.8); }});
-    const SourceBlock block = blockOf(std::move(sheet));
-    BlockTextures textures = decodeTextures(block);
-    const QuantisedBlock quantised = quantiseBlock(block, textures);
-    const PieceSurface surface(quantised.mesh, quantised.triangles, textures);
-    const auto grid = static_cast<float>(1.0 / quantised.mesh.grid.step);
-    const auto uniform = [&](double low, double high) { return static_cast<float>(random.uniform(low, high)) * grid; };
-    const glm::vec3 centre(uniform(0, 12), uniform(0, 12), uniform(-2, 2));
-    const float reach = uniform(0.01, 1.0);
-    const glm::vec3 normal = glm::normalize(glm::vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) + 1e-3f);
-    std::vector<std::uint32_t> candidates;
-    surface.findCandidates(centre, reach, normal, kNone, candidates);
-    const auto distance = [&](const PieceSurface::Hit& hit, const glm::vec3& point) {
-        glm::vec3 on(0.0f);
-        for (int k = 0; k < 3; ++k) {
-            on += glm::vec3(quantised.mesh.at(surface.triangle(hit.triangle).wedges[k])) * hit.weights[k];
-        }
-        return glm::distance(on, point);
-    };
-    for (int i = 0; i < 30; ++i) {
-        const glm::vec3 off(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-        const glm::vec3 point = centre + off * (static_cast<float>(random.uniform()) * reach / glm::length(off));
-        const float wanted = distance(surface.closest(point, normal, kNone), point);
-        RC_ASSERT(std::abs(distance(surface.closestOf(candidates, point), point) - wanted) <= 1e-4f * grid);
-    }
 }
 
 }  // namespace

@@ -4,22 +4,16 @@
 #include <map>
 
 #include "run_program.h"
+#include "worlds/files_of.h"
 
 namespace fb {
 namespace {
 
 namespace fs = std::filesystem;
+using test::filesOf;
 using test::ProgramRun;
 using test::runProgram;
 using test::TemporaryFolder;
-
-std::map<std::string, std::string> filesOf(const fs::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
-        if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = test::readText(entry.path());
-    }
-    return files;
-}
 
 std::string cityInto(const fs::path& folder) {
     return "city --progress none --blocks 6 --triangles 24K --texels 400K -o '" + folder.string() + "'";
