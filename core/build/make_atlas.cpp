@@ -112,9 +112,8 @@ class AtlasMaker {
                                                      1.0 / bakedDensity(scale));
                 } else {
                     const auto index = static_cast<std::size_t>(mesh.surfaces[t.surface].texture);
-                    const glm::vec4 texel =
-                        sampleTexture(*task_.textures.textures[index], mesh.wedges[t.wedges[k]].uv,
-                                      static_cast<float>(1.0 / scale));
+                    const TextureSampler texture(*task_.textures.textures[index], static_cast<float>(1.0 / scale));
+                    const glm::vec4 texel = texture.at(mesh.wedges[t.wedges[k]].uv);
                     colour = glm::u8vec4(texel * glm::vec4(colour) / 255.0f + 0.5f);
                 }
                 colour.w = 255;  // holes are finer than a triangle

@@ -11,8 +11,8 @@
 
 #include "build/block_mesh.h"
 #include "build/block_textures.h"
+#include "build/piece_surface.h"
 #include "build/simplify_level.h"
-#include "build/triangle_tree.h"
 
 namespace fb {
 
@@ -26,44 +26,6 @@ struct NodeTriangle {
     std::array<glm::u8vec4, 3> colours;
     std::uint32_t chart = kNone;        // set by make_charts; kNone: untextured
     std::array<glm::vec2, 3> texels{};  // atlas texels from the corner of the chart; then of the atlas
-};
-
-// What the original of a piece looks like from near a simplified triangle.
-class PieceSurface {
-  public:
-    PieceSurface(const BlockMesh& mesh, std::span<const MeshTriangle> piece, BlockTextures& textures);
-
-    struct Hit {
-        std::uint32_t triangle = kNone;  // of the piece
-        glm::vec3 weights{0.0f};
-    };
-    // The closest point of the original that faces the same way as `normal`; of all where none does. `near`:
-    // the triangle of an earlier hit close by, or kNone.
-    [[nodiscard]] Hit closest(const glm::vec3& point, const glm::vec3& normal, std::uint32_t near) const;
-    // The same for many points close together: first the triangles that can be closest to a point not farther than
-    // `reach` from `centre`, then for each point the closest of these.
-    void findCandidates(const glm::vec3& centre, float reach, const glm::vec3& normal, std::uint32_t near,
-                        std::vector<std::uint32_t>& candidates) const;
-    [[nodiscard]] Hit closestOf(std::span<const std::uint32_t> candidates, const glm::vec3& point) const;
-    [[nodiscard]] std::uint32_t surfaceOf(const Hit& hit) const;
-    [[nodiscard]] glm::vec2 uvAt(const Hit& hit) const;
-    [[nodiscard]] glm::u8vec4 vertexColourAt(const Hit& hit) const;
-    // Texture times vertex colour, averaged over a square with this side in grid units.
-    [[nodiscard]] glm::u8vec4 colourAt(const Hit& hit, double sideGridUnits) const;
-    // Texels of the original's textures per grid unit of length, on average; 0 without textures.
-    [[nodiscard]] double texelsPerGridUnit() const { return texelsPerGridUnit_; }
-    [[nodiscard]] double texturedGridArea() const { return texturedGridArea_; }
-    [[nodiscard]] const MeshTriangle& triangle(std::uint32_t index) const { return piece_[index]; }
-
-  private:
-    [[nodiscard]] double density(std::uint32_t triangle) const;
-
-    const BlockMesh& mesh_;
-    std::span<const MeshTriangle> piece_;
-    BlockTextures& textures_;
-    TriangleTree tree_;
-    std::vector<glm::vec3> normals_;
-    double texelsPerGridUnit_ = 0.0, texturedGridArea_ = 0.0;
 };
 
 // A leaf's triangles: all of the piece as it is.

@@ -1,6 +1,6 @@
-#include <cmath>
+#include "build/piece_surface.h"
 
-#include "build/node_triangles.h"
+#include <cmath>
 
 namespace fb {
 namespace {
@@ -71,16 +71,6 @@ void PieceSurface::findCandidates(const glm::vec3& centre, float reach, const gl
     if (candidates.empty()) candidates.push_back(hit.triangle);
 }
 
-PieceSurface::Hit PieceSurface::closestOf(std::span<const std::uint32_t> candidates,
-                                          const glm::vec3& point) const {
-    ClosestPoint best;
-    for (const std::uint32_t candidate : candidates) {
-        const ClosestPoint found = tree_.closestOn(candidate, point);
-        if (found.squaredDistance < best.squaredDistance) best = found;
-    }
-    return {best.triangle, best.weights};
-}
-
 std::uint32_t PieceSurface::surfaceOf(const Hit& hit) const {
     return mesh_.wedges[piece_[hit.triangle].wedges.x].surface;
 }
@@ -107,14 +97,35 @@ double PieceSurface::density(std::uint32_t triangle) const {
 }
 
 glm::u8vec4 PieceSurface::colourAt(const Hit& hit, double sideGridUnits) const {
-    const glm::u8vec4 vertex = vertexColourAt(hit);
-    const Surface& surface = mesh_.surfaces[surfaceOf(hit)];
-    if (surface.texture < 0) return vertex;
-    TextureLevels& texture = *textures_.textures[static_cast<std::size_t>(surface.texture)];
-    const auto footprint = static_cast<float>(density(hit.triangle) * sideGridUnits);
-    glm::vec4 colour = sampleTexture(texture, uvAt(hit), footprint);
-    if (!surface.alphaMask) colour.w = 255.0f;
-    return glm::u8vec4(glm::clamp(colour * glm::vec4(vertex) / 255.0f + 0.5f, 0.0f, 255.0f));
+    return TriangleColours(*this, hit.triangle, sideGridUnits).at(hit.weights);
+}
+
+TriangleColours::TriangleColours(const PieceSurface& surface, std::uint32_t triangle, double sideGridUnits)
+    : triangle_(triangle) {
+    const BlockMesh& mesh = surface.mesh_;
+    const MeshTriangle& t = surface.piece_[triangle];
+    for (int k = 0; k < 3; ++k) {
+        colours_[static_cast<std::size_t>(k)] = glm::vec4(mesh.wedges[t.wedges[k]].colour);
+        uvs_[static_cast<std::size_t>(k)] = mesh.wedges[t.wedges[k]].uv;
+    }
+    oneColour_ = colours_[0] == colours_[1] && colours_[0] == colours_[2];
+    const Surface& material = mesh.surfaces[mesh.wedges[t.wedges.x].surface];
+    if (material.texture < 0) return;
+    hasHoles_ = material.alphaMask;
+    texture_.emplace(*surface.textures_.textures[static_cast<std::size_t>(material.texture)],
+                     static_cast<float>(surface.density(triangle) * sideGridUnits));
+}
+
+glm::u8vec4 TriangleColours::at(const glm::vec3& weights) const {
+    glm::vec4 vertex = colours_[0];
+    if (!oneColour_) {
+        vertex = colours_[0] * weights.x + colours_[1] * weights.y + colours_[2] * weights.z;
+        vertex = glm::floor(glm::clamp(vertex + 0.5f, 0.0f, 255.0f));
+    }
+    if (!texture_) return glm::u8vec4(vertex);
+    glm::vec4 colour = texture_->at(uvs_[0] * weights.x + uvs_[1] * weights.y + uvs_[2] * weights.z);
+    if (!hasHoles_) colour.w = 255.0f;
+    return glm::u8vec4(glm::clamp(colour * vertex / 255.0f + 0.5f, 0.0f, 255.0f));
 }
 
 }  // namespace fb

@@ -1,7 +1,9 @@
 #include "build/resample_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace fb {
 namespace {
@@ -68,6 +70,62 @@ void copyTexels(const Image& source, const TexelRect& rect, EdgeMode edge, const
     }
 }
 
+// Filters one target row after the other: first down, over all source columns that its texels take from, then across.
+class RowFilter {
+  public:
+    RowFilter(const Image& source, const TexelTaps& columns) : source_(source), columns_(columns) {
+        int last = 0;
+        first_ = source.width;
+        for (const TexelTap& tap : columns.taps) {
+            first_ = std::min(first_, tap.source);
+            last = std::max(last, tap.source);
+        }
+        sums_.resize(static_cast<std::size_t>(last - first_ + 1) * static_cast<std::size_t>(source.channels));
+    }
+
+    // The mean of the source rows under a target row.
+    std::span<const float> mean(std::span<const TexelTap> rows) {
+        std::fill(sums_.begin(), sums_.end(), 0.0f);
+        for (const TexelTap& row : rows) {
+            const std::uint8_t* const line =
+                source_.pixels.data() +
+                (static_cast<std::size_t>(row.source) * static_cast<std::size_t>(source_.width) +
+                 static_cast<std::size_t>(first_)) *
+                    static_cast<std::size_t>(source_.channels);
+            for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += row.weight * static_cast<float>(line[i]);
+        }
+        return sums_;
+    }
+
+    void write(std::span<const float> row, Image& target, int x, int y) const {
+        const auto targetChannels = static_cast<std::size_t>(target.channels);
+        const auto sourceChannels = static_cast<std::size_t>(source_.channels);
+        const std::size_t channels = std::min(targetChannels, sourceChannels);
+        std::uint8_t* to =
+            target.pixels.data() +
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x)) *
+                targetChannels;
+        for (std::size_t i = 0; i + 1 < columns_.begin.size(); ++i, to += targetChannels) {
+            std::array<float, 4> sum;
+            sum.fill(0.5f);  // rounds
+            for (std::uint32_t k = columns_.begin[i]; k < columns_.begin[i + 1]; ++k) {
+                const TexelTap& tap = columns_.taps[k];
+                const float* const texel = row.data() + static_cast<std::size_t>(tap.source - first_) * sourceChannels;
+                for (std::size_t c = 0; c < channels; ++c) sum[c] += tap.weight * texel[c];
+            }
+            for (std::size_t c = 0; c < channels; ++c) {
+                to[c] = static_cast<std::uint8_t>(std::clamp(sum[c], 0.0f, 255.0f));
+            }
+        }
+    }
+
+  private:
+    const Image& source_;
+    const TexelTaps& columns_;
+    int first_ = 0;
+    std::vector<float> sums_;  // by column from first_
+};
+
 }  // namespace
 
 void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, const ResampleTarget& into) {
@@ -83,37 +141,11 @@ void resampleArea(const Image& source, const TexelRect& rect, EdgeMode edge, con
     }
     const TexelTaps columns = makeTaps(rect.x, rect.width / into.width, clip.x, clip.z, source.width, edge);
     const TexelTaps rows = makeTaps(rect.y, rect.height / into.height, clip.y, clip.w, source.height, edge);
-    const auto targetChannels = static_cast<std::size_t>(into.target.channels);
-    const auto sourceChannels = static_cast<std::size_t>(source.channels);
-    const std::size_t channels = std::min(targetChannels, sourceChannels);
-    const auto count = static_cast<std::size_t>(clip.z - clip.x);
-    std::vector<float> sums(count * channels);
+    RowFilter filter(source, columns);
     for (int j = clip.y; j < clip.w; ++j) {
-        std::fill(sums.begin(), sums.end(), 0.5f);  // rounds
         const auto row = static_cast<std::size_t>(j - clip.y);
-        for (std::uint32_t r = rows.begin[row]; r < rows.begin[row + 1]; ++r) {
-            const std::uint8_t* line = source.pixels.data() + static_cast<std::size_t>(rows.taps[r].source) *
-                                                                  source.width * sourceChannels;
-            for (std::size_t i = 0; i < count; ++i) {
-                for (std::uint32_t k = columns.begin[i]; k < columns.begin[i + 1]; ++k) {
-                    const std::uint8_t* texel =
-                        line + static_cast<std::size_t>(columns.taps[k].source) * sourceChannels;
-                    const float weight = rows.taps[r].weight * columns.taps[k].weight;
-                    for (std::size_t c = 0; c < channels; ++c) {
-                        sums[i * channels + c] += weight * static_cast<float>(texel[c]);
-                    }
-                }
-            }
-        }
-        std::uint8_t* to =
-            into.target.pixels.data() +
-            (static_cast<std::size_t>(into.y + j) * into.target.width + (into.x + clip.x)) * targetChannels;
-        for (std::size_t i = 0; i < count; ++i) {
-            for (std::size_t c = 0; c < channels; ++c) {
-                const float sum = std::clamp(sums[i * channels + c], 0.0f, 255.0f);
-                to[i * targetChannels + c] = static_cast<std::uint8_t>(sum);
-            }
-        }
+        const std::span<const TexelTap> taps(rows.taps.data() + rows.begin[row], rows.begin[row + 1] - rows.begin[row]);
+        filter.write(filter.mean(taps), into.target, into.x + clip.x, into.y + j);
     }
 }
 

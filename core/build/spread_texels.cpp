@@ -70,8 +70,10 @@ class RingGrower {
             if (missing == 0) continue;
             for (const glm::ivec2& from : byEdge ? kByEdge : kByCorner) {
                 const std::uint64_t reached = missing & knownBeside(tile, y + from.y, from.x);
-                for (std::uint64_t rest = reached; rest != 0; rest &= rest - 1) {
-                    copyTexel(tile, std::countr_zero(rest), y, from);
+                for (std::uint64_t rest = reached; rest != 0;) {
+                    const int begin = std::countr_zero(rest), count = std::countr_one(rest >> begin);
+                    copyRun(tile, {begin, y}, count, from);
+                    rest &= count == kTileSide ? 0 : ~(((std::uint64_t{1} << count) - 1) << begin);
                 }
                 fresh |= reached;
                 missing &= ~reached;
@@ -79,19 +81,25 @@ class RingGrower {
         }
     }
 
-    void copyTexel(const GrowingTile& tile, int x, int y, const glm::ivec2& from) const {
-        std::uint8_t* const target = places_.texel(tile.tile, x, y);
-        const int sx = x + from.x, sy = y + from.y;
-        const std::uint8_t* source = nullptr;
-        if (sx >= 0 && sy >= 0 && sx < kTileSide && sy < kTileSide) {
-            source = places_.texel(tile.tile, sx, sy);
-        } else {
-            const auto column = static_cast<std::size_t>(1 + (sx >= kTileSide) - (sx < 0));
-            const auto row = static_cast<std::size_t>(1 + (sy >= kTileSide) - (sy < 0));
-            source = places_.texel(tile.tiles[row][column], (sx + kTileSide) % kTileSide,
-                                   (sy + kTileSide) % kTileSide);
+    // Texels beside each other come from one row: those of one column from the column before have gaps.
+    void copyRun(const GrowingTile& tile, const glm::ivec2& at, int count, const glm::ivec2& from) const {
+        const glm::ivec2 source = at + from;
+        const bool oneTile = source.x >= 0 && source.y >= 0 && source.x + count <= kTileSide && source.y < kTileSide;
+        if (oneTile && first_ == 0 && end_ == places_.shape.channels) {
+            std::memmove(places_.texel(tile.tile, at.x, at.y), places_.texel(tile.tile, source.x, source.y),
+                         static_cast<std::size_t>(count) * static_cast<std::size_t>(end_));
+            return;
         }
-        for (int c = first_; c < end_; ++c) target[c] = source[c];
+        for (int i = 0; i < count; ++i) copyTexel(tile, at + glm::ivec2(i, 0), source + glm::ivec2(i, 0));
+    }
+
+    void copyTexel(const GrowingTile& tile, const glm::ivec2& at, const glm::ivec2& source) const {
+        const auto column = static_cast<std::size_t>(1 + (source.x >= kTileSide) - (source.x < 0));
+        const auto row = static_cast<std::size_t>(1 + (source.y >= kTileSide) - (source.y < 0));
+        const std::uint8_t* const texel = places_.texel(tile.tiles[row][column], (source.x + kTileSide) % kTileSide,
+                                                        (source.y + kTileSide) % kTileSide);
+        std::uint8_t* const target = places_.texel(tile.tile, at.x, at.y);
+        for (int c = first_; c < end_; ++c) target[c] = texel[c];
     }
 
     const TexelPlaces& places_;
@@ -170,19 +178,21 @@ class FarFiller {
     static constexpr int kCellSide = 8;  // texels; as the blocks of JPEG
     static constexpr int kCells = kTileSide / kCellSide;  // a side
 
+    struct Sum {
+        std::array<unsigned, 4> colour{};
+        unsigned count = 0;
+    };
+
     [[nodiscard]] std::vector<Cell> cellsOf(std::uint32_t tile) const {
-        struct Sum {
-            std::array<unsigned, 4> colour{};
-            unsigned count = 0;
-        };
         std::array<Sum, static_cast<std::size_t>(kCells) * kCells> sums;
         for (int y = 0; y < kTileSide; ++y) {
-            for (std::uint64_t rest = known_[tile].rows[static_cast<std::size_t>(y)]; rest != 0; rest &= rest - 1) {
-                const int x = std::countr_zero(rest);
-                Sum& sum = sums[static_cast<std::size_t>(y / kCellSide * kCells + x / kCellSide)];
-                const std::uint8_t* const texel = places_.texel(tile, x, y);
-                for (int c = first_; c < end_; ++c) sum.colour[static_cast<std::size_t>(c)] += texel[c];
-                ++sum.count;
+            const std::uint64_t row = known_[tile].rows[static_cast<std::size_t>(y)];
+            if (row == 0) continue;
+            for (int column = 0; column < kCells; ++column) {
+                const auto mask = static_cast<std::uint8_t>(row >> (column * kCellSide));
+                if (mask == 0) continue;
+                addRow(places_.texel(tile, column * kCellSide, y), mask,
+                       sums[static_cast<std::size_t>(y / kCellSide * kCells + column)]);
             }
         }
         std::vector<Cell> cells(sums.size());
@@ -194,6 +204,20 @@ class FarFiller {
                 cells[i].colour[c] = static_cast<std::uint8_t>((sum.colour[c] + sum.count / 2) / sum.count);
         }
         return cells;
+    }
+
+    // A row of a cell, of which the bits in `mask` are known.
+    void addRow(const std::uint8_t* texels, std::uint8_t mask, Sum& sum) const {
+        const int channels = places_.shape.channels;
+        const auto add = [&](int count) {
+            for (int c = first_; c < end_; ++c) sum.colour[static_cast<std::size_t>(c)] += texels[count * channels + c];
+        };
+        sum.count += static_cast<unsigned>(std::popcount(mask));
+        if (mask == 0xFF) {
+            for (int x = 0; x < kCellSide; ++x) add(x);
+            return;
+        }
+        for (unsigned rest = mask; rest != 0; rest &= rest - 1) add(std::countr_zero(rest));
     }
 
     void paint(const GrowingTile& tile, std::span<const Cell> cells) const {

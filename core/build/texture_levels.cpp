@@ -1,6 +1,7 @@
 #include "build/texture_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fb {
@@ -94,6 +95,12 @@ void resampleRepeated(TextureLevels& texture, const TexelRect& rect, const Resam
     resampleArea(crop, part, EdgeMode::repeat, into);
 }
 
+const std::uint8_t* texelOrNearest(const TiledPicture& picture, int x, int y) {
+    if (picture.tileAt(x / kTileSide, y / kTileSide) != kNoTile) return picture.texel(x, y);
+    const glm::ivec2 near = nearestTexel(picture, x, y);
+    return picture.texel(near.x, near.y);
+}
+
 }  // namespace
 
 int TextureLevels::levelFor(int level) {
@@ -112,29 +119,35 @@ void resampleTexture(TextureLevels& texture, const TexelRect& rect, EdgeMode edg
     }
 }
 
-glm::vec4 sampleTexture(TextureLevels& texture, const glm::vec2& uv, float footprint) {
+TextureSampler::TextureSampler(TextureLevels& texture, float footprint) : texture_(&texture) {
     int wanted = 0;
-    while (footprint >= 2.0f && wanted < 16) {
-        footprint *= 0.5f;
-        ++wanted;
-    }
+    for (; footprint >= 2.0f && wanted < 16; footprint *= 0.5f) ++wanted;
     const int level = texture.levelFor(wanted);
-    const TiledPicture& picture = texture.levels[static_cast<std::size_t>(level)];
+    level_ = static_cast<std::size_t>(level);
+    size_ = {std::ldexp(static_cast<float>(texture.width()), -level),
+             std::ldexp(static_cast<float>(texture.height()), -level)};
+}
+
+glm::vec4 TextureSampler::at(const glm::vec2& uv) const {
+    const TiledPicture& picture = texture_->levels[level_];
     const glm::vec2 inTile = uv - glm::floor(uv);
-    const glm::vec2 size(std::ldexp(static_cast<float>(texture.width()), -level),
-                         std::ldexp(static_cast<float>(texture.height()), -level));
     // Within one repeat: the opposite edge of the picture must not bleed in.
-    const float x = std::clamp(inTile.x * size.x - 0.5f, 0.0f, static_cast<float>(picture.width - 1));
-    const float y = std::clamp(inTile.y * size.y - 0.5f, 0.0f, static_cast<float>(picture.height - 1));
+    const float x = std::clamp(inTile.x * size_.x - 0.5f, 0.0f, static_cast<float>(picture.width - 1));
+    const float y = std::clamp(inTile.y * size_.y - 0.5f, 0.0f, static_cast<float>(picture.height - 1));
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     const int x1 = std::min(x0 + 1, picture.width - 1), y1 = std::min(y0 + 1, picture.height - 1);
     const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
-    const auto texel = [&](int tx, int ty) {
-        if (picture.tileAt(tx / kTileSide, ty / kTileSide) != kNoTile) return picture.texel(tx, ty);
-        const glm::ivec2 near = nearestTexel(picture, tx, ty);
-        return picture.texel(near.x, near.y);
-    };
-    const std::uint8_t* const corners[4] = {texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)};
+    std::array<const std::uint8_t*, 4> corners;
+    const bool oneTile = x0 / kTileSide == x1 / kTileSide && y0 / kTileSide == y1 / kTileSide;
+    if (oneTile && picture.tileAt(x0 / kTileSide, y0 / kTileSide) != kNoTile) {
+        const std::uint8_t* const first = picture.texel(x0, y0);
+        const std::ptrdiff_t right = (x1 - x0) * picture.channels;
+        const std::ptrdiff_t below = (y1 - y0) * kTileSide * picture.channels;
+        corners = {first, first + right, first + below, first + below + right};
+    } else {
+        corners = {texelOrNearest(picture, x0, y0), texelOrNearest(picture, x1, y0),
+                   texelOrNearest(picture, x0, y1), texelOrNearest(picture, x1, y1)};
+    }
     glm::vec4 result(0, 0, 0, 255);
     for (int c = 0; c < picture.channels; ++c) {
         const float top = static_cast<float>(corners[0][c]) * (1 - fx) + static_cast<float>(corners[1][c]) * fx;

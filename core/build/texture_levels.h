@@ -24,8 +24,17 @@ struct TextureLevels {
 // stands for four texels or more along both axes, from a level of which it takes at least two.
 void resampleTexture(TextureLevels& texture, const TexelRect& rect, EdgeMode edge, const ResampleTarget& into);
 
-// The texture's colour at `uv`, which may repeat, averaged over squares of about `footprint` texels. Alpha is
-// 255 where the texture has none.
-[[nodiscard]] glm::vec4 sampleTexture(TextureLevels& texture, const glm::vec2& uv, float footprint);
+// Colours averaged over squares of about `footprint` texels. The texture must outlive it.
+class TextureSampler {
+  public:
+    TextureSampler(TextureLevels& texture, float footprint);
+    // At `uv`, which may repeat. Alpha is 255 where the texture has none.
+    [[nodiscard]] glm::vec4 at(const glm::vec2& uv) const;
+
+  private:
+    const TextureLevels* texture_;
+    std::size_t level_;
+    glm::vec2 size_;  // of the whole texture in texels of the level
+};
 
 }  // namespace fb

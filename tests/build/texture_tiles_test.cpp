@@ -279,7 +279,7 @@ TEST(TextureTiles, AreSampledNearbyWhereATileIsNotThere) {
     BlockTextures textures = decodeTextures(block);
     ASSERT_EQ(textures.tiles, 1u);
     const auto sample = [&](double x, double y) {
-        return sampleTexture(*textures.textures[0], glm::dvec2(x, y) / 256.0, 1.0f);
+        return TextureSampler(*textures.textures[0], 1.0f).at(glm::dvec2(x, y) / 256.0);
     };
     EXPECT_EQ(sample(100.5, 90.5), glm::vec4(100, 90, 0, 255));
     EXPECT_EQ(sample(128.0, 90.5), glm::vec4(127, 90, 0, 255));   // at the tile's edge
