@@ -8,6 +8,23 @@ glm::uvec3 positionsAt(const BlockMesh& mesh, const glm::uvec3& wedges) {
     return {mesh.wedges[wedges.x].position, mesh.wedges[wedges.y].position, mesh.wedges[wedges.z].position};
 }
 
+// Where the original has the corners that a simplified piece kept.
+std::vector<glm::uvec3> keptPositions(const BlockMesh& mesh, const SimplifiedPiece& simplified) {
+    if (simplified.welded) return simplified.triangles;
+    std::vector<glm::uvec3> result;
+    for (const glm::uvec3& wedges : simplified.triangles) result.push_back(positionsAt(mesh, wedges));
+    return result;
+}
+
+void fitLevel(BlockMesh& mesh, BlockLevel& level) {
+    Numbering numbering(mesh.positions.size());
+    for (std::size_t i = 0; i < level.simplified.size(); ++i) {
+        SimplifiedPiece& simplified = level.simplified[i];
+        if (simplified.clustered) continue;
+        simplified.moved = fitSurface(mesh, level.piece(i), keptPositions(mesh, simplified), numbering);
+    }
+}
+
 }  // namespace
 
 std::vector<glm::uvec3> positionsOf(const BlockMesh& mesh, std::span<const MeshTriangle> triangles) {
@@ -19,9 +36,10 @@ std::vector<glm::uvec3> positionsOf(const BlockMesh& mesh, std::span<const MeshT
 
 std::vector<glm::uvec3> BlockLevel::drawn(const BlockMesh& mesh, std::size_t i) const {
     if (isLeaves()) return positionsOf(mesh, piece(i));
-    if (simplified[i].welded) return simplified[i].triangles;
-    std::vector<glm::uvec3> result;
-    for (const glm::uvec3& wedges : simplified[i].triangles) result.push_back(positionsAt(mesh, wedges));
+    std::vector<glm::uvec3> result = keptPositions(mesh, simplified[i]);
+    for (glm::uvec3& t : result) {
+        for (int k = 0; k < 3; ++k) t[k] = simplified[i].drawnAt(t[k]);
+    }
     return result;
 }
 
@@ -42,6 +60,7 @@ std::vector<BlockLevel> makeLevels(BlockMesh& mesh, Level root, const BuildSetti
         for (const Piece& piece : level.original.pieces)
             aims.push_back(simplificationAim(piece.size(), level.factor));
         level.simplified = simplifyLevel(mesh, level.original, aims, settings.simplifier);
+        if (settings.fit) fitLevel(mesh, level);
         BlockLevel next;
         next.original = splitLevel(mesh, level.original, static_cast<int>(settings.levelFactor), counters);
         next.factor = level.factor / static_cast<double>(settings.levelFactor);

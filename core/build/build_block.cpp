@@ -117,6 +117,9 @@ class BlockBuilder {
             } else {
                 dressed = dressSeamed(mesh_, level.piece(i), simplified, scratch);
             }
+            for (NodeTriangle& t : dressed) {
+                for (int k = 0; k < 3; ++k) t.positions[k] = simplified.drawnAt(t.positions[k]);
+            }
             result_.block.nodes[result_.nodes.size()].stuck = simplified.stuck;
             carried_ += simplified.carriedTriangles;
             if (Result<void> done = finish(dressed, surface ? &*surface : nullptr, scale, skirts[i]); !done)

@@ -304,6 +304,11 @@ class LevelSimplifier {
 
 }  // namespace
 
+std::uint32_t SimplifiedPiece::drawnAt(std::uint32_t position) const {
+    const auto found = std::ranges::lower_bound(moved, position, {}, &MovedVertex::from);
+    return found != moved.end() && found->from == position ? found->to : position;
+}
+
 std::size_t simplificationAim(std::size_t triangles, double factor) {
     const double aim = std::ceil(static_cast<double>(triangles) / factor);
     return std::max(static_cast<std::size_t>(aim), std::min(triangles, kSmallestAim));

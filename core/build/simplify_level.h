@@ -12,6 +12,7 @@
 #include <span>
 
 #include "build/block_mesh.h"
+#include "build/fit_surface.h"
 #include "settings/settings.h"
 
 namespace fb {
@@ -27,6 +28,10 @@ struct SimplifiedPiece {
     bool stuck = false;
     std::uint64_t carriedTriangles = 0;
     std::vector<std::uint32_t> replaced;  // positions of parts that stand-ins are drawn for, ascending
+    std::vector<MovedVertex> moved;       // drawn elsewhere than where `triangles` have them
+
+    // Where a position of `triangles` is drawn.
+    [[nodiscard]] std::uint32_t drawnAt(std::uint32_t position) const;
 };
 
 // Triangles that a piece of `triangles` should have at `factor`.

@@ -1,4 +1,4 @@
-// bench_build COMMAND [MESH...] [--blocks N] [--block-triangles N] [--samples N] [--rounds N] [--copies N]:
+// bench_build COMMAND [MESH...] [--blocks N] [--block-triangles N] [--samples N] [--rounds N] [--copies N] [--set build.K=V]:
 // what model preparation costs and how near it stays to the source. Without a mesh the built-in city is
 // prepared. For release builds on a quiet machine.
 #include <charconv>
@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "commands.h"
+#include "settings/knob_table.h"
 
 namespace fb::bench {
 namespace {
@@ -39,11 +40,23 @@ bool takeNumber(std::string_view text, std::size_t& into) {
     return problem == std::errc() && end == text.data() + text.size() && into > 0;
 }
 
+bool takeKnob(std::string_view text, Settings& settings) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos || !text.starts_with("build.")) return false;
+    const Result<void> set = setFromText(settings, text.substr(0, equals), text.substr(equals + 1), "--set");
+    if (!set) std::fprintf(stderr, "bench_build: %s\n", set.error().oneLine().c_str());
+    return set.has_value();
+}
+
 bool takeArguments(int count, char** arguments, BenchOptions& options) {
     for (int i = 2; i < count; ++i) {
         const std::string_view argument = arguments[i];
         if (!argument.starts_with("--")) {
             options.meshes.emplace_back(argument);
+            continue;
+        }
+        if (argument == "--set") {
+            if (++i == count || !takeKnob(arguments[i], options.settings)) return false;
             continue;
         }
         std::size_t BenchOptions::*value = nullptr;
@@ -58,7 +71,7 @@ bool takeArguments(int count, char** arguments, BenchOptions& options) {
 int tellUsage() {
     std::fprintf(stderr, "usage: bench_build COMMAND [MESH...]");
     for (const Option& option : kOptions) std::fprintf(stderr, " [%s N]", option.name);
-    std::fprintf(stderr, "\n");
+    std::fprintf(stderr, " [--set build.K=V]\n");
     for (const Command& command : kCommands) std::fprintf(stderr, "  %-12s %s\n", command.name, command.help);
     return 2;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "settings/settings.h"
 
 namespace fb::bench {
 
@@ -16,6 +17,7 @@ struct BenchOptions {
     std::size_t samples = 200000;               // points a direction
     std::size_t rounds = 3;                     // of what is timed
     std::size_t copies = 2;                     // a side of the grid
+    Settings settings;                          // of which the group "build" counts
 };
 
 // Both simplifiers on every level of the same blocks: speed and error.

@@ -106,7 +106,7 @@ Result<void> compareDeviation(const BenchOptions& options) {
     if (!source) return passOn(source);
     Result<std::vector<SourceBlock>> blocks = loadBlocks(**source);
     if (!blocks) return passOn(blocks);
-    Result<std::vector<PreparedBlock>> prepared = prepareBlocks(*blocks, {});
+    Result<std::vector<PreparedBlock>> prepared = prepareBlocks(*blocks, options.settings.build);
     if (!prepared) return passOn(prepared);
     const SourceInfo& info = (*source)->info();
     std::printf("deviation: %s in %zu blocks, diagonal %.4g m; lengths in 1/10000 of it\n", info.name.c_str(),

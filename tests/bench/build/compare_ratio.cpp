@@ -40,7 +40,7 @@ Result<void> compareRatio(const BenchOptions& options) {
     std::vector<BuildPhases> phases;
     for (std::size_t r = 0; r < options.rounds; ++r) {
         const ScratchFolder folder;
-        Result<BuildReport> report = buildScene(**source, {}, folder.path(), nullptr);
+        Result<BuildReport> report = buildScene(**source, options.settings.build, folder.path(), nullptr);
         if (!report) return passOn(report);
         whole.push_back(report->seconds);
         phases.push_back(report->phases);

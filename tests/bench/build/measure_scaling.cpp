@@ -15,7 +15,7 @@ Result<BuildNumbers> buildCity(std::size_t blocks, const BenchOptions& options) 
     Result<std::unique_ptr<BlockSource>> source = makeCityOf(blocks, options);
     if (!source) return passOn(source);
     const ScratchFolder folder;
-    Result<BuildReport> report = buildScene(**source, {}, folder.path(), nullptr);
+    Result<BuildReport> report = buildScene(**source, options.settings.build, folder.path(), nullptr);
     if (!report) return passOn(report);
     return numbersOf(*report);
 }

@@ -39,7 +39,7 @@ Result<BuildNumbers> buildCopies(const BenchOptions& options) {
     if (Result<void> counted = countTextures(**source, textures); !counted) return passOn(counted);
     const std::unique_ptr<BlockSource> copied = copySource(std::move(*source), options.copies);
     const ScratchFolder folder;
-    Result<BuildReport> report = buildScene(*copied, {}, folder.path(), nullptr);
+    Result<BuildReport> report = buildScene(*copied, options.settings.build, folder.path(), nullptr);
     if (!report) return passOn(report);
     BuildNumbers numbers = numbersOf(*report);
     numbers.textures = textures.textures;

@@ -88,7 +88,7 @@ Result<void> timeSimplifiers(const BenchOptions& options) {
     std::printf("%-14s %5s %9s %9s %9s %6s %11s %8s %8s %8s %8s %8s\n", "simplifier", "level", "triangles",
                 "aim", "reached", "stuck", "triangles/s", "bound", "->l mean", "->l max", "->s mean",
                 "->s max");
-    BuildSettings settings;
+    BuildSettings settings = options.settings.build;
     settings.simplifier = Simplifier::meshoptimizer;
     if (Result<void> done = timeOne(subject, "meshoptimizer", settings, options); !done) return done;
     settings.simplifier = Simplifier::openMesh;
