@@ -44,7 +44,7 @@ struct BlockMesh {
     std::vector<GridPoint> positions;  // no two are equal
     HashIndex positionIndex;
     std::vector<std::uint8_t> onCut;          // by position: lies on a cutting plane
-    std::vector<std::uint8_t> onBlockBorder;  // by position: another block has it too; may be shorter than positions
+    std::vector<std::uint8_t> onBlockBorder;  // by position: the surface goes on in another block there; may be shorter than positions
     std::vector<Wedge> wedges;        // of the source no two are equal
     std::vector<glm::vec3> normals;   // unit
     std::vector<Surface> surfaces;

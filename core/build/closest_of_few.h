@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 namespace fb {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "build/least_squares.h"
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 namespace fb {
 namespace {

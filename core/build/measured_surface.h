@@ -2,7 +2,7 @@
 // edge. Comes from measure_error; farthest_from walks over it.
 #pragma once
 
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 namespace fb {
 

@@ -9,7 +9,7 @@
 
 #include "build/block_mesh.h"
 #include "build/block_textures.h"
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 namespace fb {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "build/border_edges.h"
 #include "build/farthest_from.h"
@@ -17,6 +18,8 @@ constexpr int kProbes = 6;  // along an edge, besides its first end
 constexpr double kSpare = 1.25;
 // The other block's border may lie as far off as this one's, to the other side.
 constexpr double kBlockFactor = 2.0;
+// A spike's tip is farther from the straight line below it than that is from the spike.
+constexpr double kStrayFactor = 2.0;
 // The surface runs along the cutting plane rather than through it.
 constexpr double kGrazing = 0.1;
 
@@ -118,21 +121,40 @@ class SkirtPlanner {
         return glm::length(down) > 0.0 ? glm::normalize(down) : -face;
     }
 
-    // The widest gap between this edge and another level's border, if that level's lies below it somewhere.
-    double gapTo(const TriangleTree& line, const TriangleCorners& segment, const glm::dvec3& down) const {
-        double gap = 0.0;
+    struct Gap {
+        double width = 0.0;
+        std::uint32_t across = 0;  // the other line's segment where it is widest
         bool isBelow = false;
+    };
+
+    // The widest gap between a segment and a line, and whether the line lies below somewhere.
+    static Gap gapTo(const TriangleTree& line, const TriangleCorners& segment, const glm::dvec3& down) {
+        Gap gap;
         ClosestPoint near;
         for (int i = 0; i <= kProbes; ++i) {
             const glm::vec3 probe = glm::mix(segment[0], segment[1], static_cast<float>(i) / kProbes);
             if (near.triangle != ~std::uint32_t{0}) near = line.closestOn(near.triangle, probe);
             near = line.closest(probe, near, -1.0f, [](std::uint32_t) { return true; });
-            gap = std::max(gap, static_cast<double>(std::sqrt(near.squaredDistance)));
+            const double width = std::sqrt(static_cast<double>(near.squaredDistance));
+            if (i == 0 || width > gap.width) gap.width = width, gap.across = near.triangle;
             const TriangleCorners& c = line.triangles()[near.triangle];
             const glm::vec3 on = c[0] * near.weights.x + c[1] * near.weights.y + c[2] * near.weights.z;
-            isBelow = isBelow || glm::dot(glm::dvec3(on - probe), down) > 1.0;
+            gap.isBelow = gap.isBelow || glm::dot(glm::dvec3(on - probe), down) > 1.0;
         }
-        return gap > kClosed && isBelow ? gap : 0.0;
+        return gap;
+    }
+
+    // How far a segment of one level's border strays from another level's.
+    double strayOf(std::size_t of, std::size_t from, const LineKey& key, std::uint32_t segment) {
+        const TriangleTree& segments = lines_[of].at(key);
+        std::vector<float>& strays = strays_[{of, from, key}];
+        strays.resize(segments.triangles().size(), -1.0f);
+        float& stray = strays[segment];
+        if (stray < 0.0f) {
+            const Gap gap = gapTo(lines_[from].at(key), segments.triangles()[segment], glm::dvec3(0.0));
+            stray = static_cast<float>(gap.width);
+        }
+        return static_cast<double>(stray);
     }
 
     std::size_t ancestorAt(std::size_t level, std::size_t piece, std::size_t wanted) const {
@@ -147,21 +169,25 @@ class SkirtPlanner {
     }
 
     double depthOf(const PieceBorder& border, const BorderEdge& edge, std::size_t l, std::size_t i,
-                   const glm::dvec3& down) const {
+                   const glm::dvec3& down) {
         if (edge.kind == BorderKind::free) return errors_[l][i];
         const auto [a, b] = ends(border, edge);
         const TriangleCorners segment = {glm::vec3(mesh_.positions[a]), glm::vec3(mesh_.positions[b]),
                                          glm::vec3(mesh_.positions[b])};
+        const LineKey key{edge.kind, edge.plane};
+        const double factor = edge.kind == BorderKind::block ? kBlockFactor : 1.0;
         double depth = 0.0;
         for (std::size_t m = 0; m < levels_.size(); ++m) {
-            const auto line = lines_[m].find({edge.kind, edge.plane});
+            const auto line = lines_[m].find(key);
             if (m == l || line == lines_[m].end()) continue;
-            const std::size_t coarse = std::min(l, m);
             if (m < l && isReplaced(m, ancestorAt(l, i, m), a, b)) continue;
-            // Where the other level has nothing any more, its border is far off, and there is no gap to close.
-            const double most = 2.0 * errors_[coarse][ancestorAt(l, i, coarse)];
-            const double factor = edge.kind == BorderKind::block ? kBlockFactor : 1.0;
-            depth = std::max(depth, std::min(most, factor * gapTo(line->second, segment, down)));
+            const Gap gap = gapTo(line->second, segment, down);
+            if (gap.width <= kClosed || !gap.isBelow) continue;
+            // Where the other level has nothing any more, its border is far off and close to another part of this one;
+            // and what joins two ends of a border is none where the border does not go along. No gap is to be closed.
+            const double width = std::min(factor * gap.width, kStrayFactor * strayOf(m, l, key, gap.across));
+            const std::size_t coarse = std::min(l, m);
+            depth = std::max(depth, std::min(width, 2.0 * errors_[coarse][ancestorAt(l, i, coarse)]));
         }
         return depth;
     }
@@ -202,6 +228,8 @@ class SkirtPlanner {
     const std::vector<BlockLevel>& levels_;
     const std::vector<std::vector<double>>& errors_;
     std::vector<std::map<LineKey, TriangleTree>> lines_;  // by level
+    // By level, other level and line: how far each segment strays, or -1.
+    std::map<std::tuple<std::size_t, std::size_t, LineKey>, std::vector<float>> strays_;
 };
 
 // The same triangle with its corners taken from these ones of `from`, at these positions.

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <optional>
 
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 namespace fb {
 namespace {

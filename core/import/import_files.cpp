@@ -11,6 +11,7 @@
 #include "import/import_limits.h"
 #include "import/mesh_file.h"
 #include "import/split_blocks.h"
+#include "import/touching_borders.h"
 
 namespace fb {
 namespace {
@@ -112,6 +113,7 @@ class Import {
             }
         }
         markSharedVertices(blocks);
+        markTouchingBorders(blocks);
         if (!goesOn("splitting", cleaned_.size())) return stopped();
         info_.sourceHash = hasher_.digest();
         return std::make_unique<BlocksInMemory>(std::move(info_), std::move(blocks));

@@ -60,7 +60,7 @@ struct SourceMesh {
     std::vector<glm::u8vec4> colours;       // sRGB, alpha linear
     std::vector<glm::uvec3> triangles;
     std::vector<std::uint32_t> materials;   // one a triangle, index into SourceBlock::materials or kNoMaterial
-    std::vector<std::uint8_t> shared;       // one a vertex: 1 where another block has its position too; may be empty
+    std::vector<std::uint8_t> shared;       // one a vertex: 1 where the surface goes on in another block; may be empty
 
     [[nodiscard]] bool hasNormals() const { return !normals.empty(); }
     [[nodiscard]] bool hasUvs() const { return !uvs.empty(); }

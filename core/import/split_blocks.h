@@ -21,7 +21,8 @@ struct BlockLabels {
 };
 [[nodiscard]] std::vector<SourceBlock> splitByLabel(const SourceBlock& block, const BlockLabels& labels);
 
-// Sets `shared` of all blocks' vertices: surfaces that go on in another block must not part there at coarse levels.
+// Sets `shared` of all blocks' vertices that another block has too: surfaces that go on in another block must not part
+// there at coarse levels.
 void markSharedVertices(std::span<SourceBlock> blocks);
 
 // The whole block with only the materials and textures that it uses.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 #include "built_block.h"
 
 namespace fb {
@@ -199,6 +199,30 @@ TEST(Skirts, AreNotMadeWhereLevelsAgree) {
         EXPECT_EQ(node.skirtTriangles, 0u);
         EXPECT_EQ(node.borderErrorMetres, 0.0f);
     }
+}
+
+// A scrap that hovers over the border that the ground has in common with another block is gone in coarse levels: what
+// is left of the border there is far below it, but there is no gap between the two.
+TEST(Skirts, DoNotReachForWhatIsGone) {
+    Random random(11);
+    SourceMesh mesh = hills(random, 40.0);
+    mesh.shared.resize(mesh.positions.size());
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) mesh.shared[v] = mesh.positions[v].x == 40.0 ? 1 : 0;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const glm::dvec3& p : {glm::dvec3(0, 0, 0), {0.2, 0, 0}, {0, 0.2, 0}, {0.2, 0.2, 0}}) {
+        mesh.positions.push_back(p + glm::dvec3(38, 20, 15));
+        mesh.uvs.emplace_back(0.0f);
+        mesh.shared.push_back(1);
+    }
+    mesh.triangles.emplace_back(first, first + 1, first + 2);
+    mesh.triangles.emplace_back(first + 2, first + 1, first + 3);
+    const BlockBuild built = build(blockOf(mesh), settingsOf(64, 4));
+    const double error = static_cast<double>(built.block.nodes[0].geometricErrorMetres);
+    EXPECT_GT(error, 10.0);  // the scrap is gone
+    float deepest = 0.0f;
+    for (const BuiltNode& node : built.block.nodes) deepest = std::max(deepest, node.borderErrorMetres);
+    EXPECT_GT(deepest, 0.0f);
+    EXPECT_LT(deepest, 4.0f);
 }
 
 TEST(Skirts, CountNeitherInAreaNorInTheBenefit) {

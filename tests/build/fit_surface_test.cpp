@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 #include "build/least_squares.h"
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 namespace fb {
 namespace {

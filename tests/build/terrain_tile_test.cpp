@@ -10,7 +10,7 @@
 #include "build/terrain_error.h"
 #include "build/terrain_skirts.h"
 #include "build/terrain_tree.h"
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 #include "terrain_world.h"
 
 namespace fb {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "build/block_levels.h"
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 #include "import/source_scene.h"
 
 namespace fb::bench {

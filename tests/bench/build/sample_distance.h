@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 namespace fb::bench {
 

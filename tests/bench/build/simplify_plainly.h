@@ -2,7 +2,7 @@
 // meshoptimizer, without attributes, seams, cuts or locks.
 #pragma once
 
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 #include "import/source_scene.h"
 
 namespace fb::bench {

@@ -1,4 +1,4 @@
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,5 +1,6 @@
-// Finds the closest point of a set of triangles: a tree of boxes, built once per node or piece.
-// Used by farthest_from (geometric errors), by skirts, and to carry colours from the original to a simplified mesh.
+// Finds the closest point of a set of triangles: a tree of boxes, built once for a set.
+// Used to find where blocks touch, for geometric errors, by skirts, and to carry colours from the original to a simplified
+// mesh.
 // Deterministic: of equally close triangles the one met first in the tree is taken, and the tree depends on
 // the triangles alone.
 #pragma once

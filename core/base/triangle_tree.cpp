@@ -1,4 +1,4 @@
-#include "build/triangle_tree.h"
+#include "base/triangle_tree.h"
 
 #include <algorithm>
 #include <numeric>
