@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/triangle_tree.h"
 #include "build/join_neighbours.h"
 
 namespace fb {
 namespace {
 
-constexpr std::size_t kLeastParts = 16;    // fewer are simplified like anything else
-constexpr double kLeastAreaShare = 0.1;    // of the piece: less is clutter that nobody misses from afar
+// Fewer small parts, or less of the piece's area, are clutter: simplified like anything else, but for what lies so far
+// from the rest (in sides of the triangles that the piece should have) that it would be missed, which gets this much of
+// the aim at most.
+constexpr std::size_t kLeastParts = 16;
+constexpr double kLeastAreaShare = 0.1, kFarSides = 0.5, kFarShare = 1.0 / 16.0;
 constexpr std::size_t kMostTriangles = 4;  // of a stand-in: a tetrahedron
 constexpr int kHalvings = 30;
 
@@ -85,26 +89,81 @@ class StandInMaker {
 
     StandIns make(Numbering& numbering) {
         const std::vector<Part> parts = findParts(mesh_, triangles_, numbering);
-        if (parts.size() < kLeastParts) return {};
         double area = 0.0, smallArea = 0.0;
         for (const Part& part : parts) area += part.area;
-        std::vector<const Part*> small;
+        std::vector<const Part*> small, large;
         for (const Part& part : parts) {
-            if (static_cast<double>(aim_) * part.area >= static_cast<double>(kMostTriangles) * area) continue;
-            small.push_back(&part);
-            smallArea += part.area;
+            const bool isSmall = static_cast<double>(aim_) * part.area < static_cast<double>(kMostTriangles) * area;
+            (isSmall ? small : large).push_back(&part);
+            smallArea += isSmall ? part.area : 0.0;
         }
-        if (small.size() < kLeastParts || smallArea < kLeastAreaShare * area) return {};
-        std::ranges::stable_sort(small, {}, [](const Part* part) { return part->curve; });
+        const auto aim = static_cast<double>(aim_);
         result_.replaced.assign(triangles_.size(), 0);
-        const double budget = static_cast<double>(aim_) * smallArea / area;
-        for (const Run& run : affordableRuns(small, static_cast<std::size_t>(budget))) standFor(run);
+        if (small.size() >= kLeastParts && smallArea >= kLeastAreaShare * area) {
+            std::ranges::stable_sort(small, {}, [](const Part* part) { return part->curve; });
+            const auto budget = static_cast<std::size_t>(aim * smallArea / area);
+            for (const Run& run : affordableRuns(small, budget)) standFor(run);
+        } else {
+            // What has many small triangles keeps enough of them by itself.
+            const double left = aim / static_cast<double>(triangles_.size());
+            std::erase_if(small, [&](const Part* part) {
+                const double kept = left * static_cast<double>(part->triangles.size());
+                return part->triangles.size() > kMostTriangles && kept >= static_cast<double>(kMostTriangles);
+            });
+            const double side = std::sqrt(2.0 * area / aim);
+            const auto budget = static_cast<std::size_t>(aim * kFarShare);
+            for (const Part* part : farthestParts(small, large, kFarSides * side, budget)) standFor({&part, 1});
+        }
         if (result_.triangles.empty()) return {};
         return std::move(result_);
     }
 
   private:
     using Run = std::span<const Part* const>;
+
+    [[nodiscard]] TriangleTree treeOf(const std::vector<const Part*>& parts) const {
+        std::vector<TriangleCorners> corners;
+        for (const Part* part : parts) {
+            for (const std::uint32_t i : part->triangles) {
+                const glm::uvec3& t = triangles_[i];
+                corners.push_back({glm::vec3(mesh_.positions[t.x]), glm::vec3(mesh_.positions[t.y]),
+                                   glm::vec3(mesh_.positions[t.z])});
+            }
+        }
+        return TriangleTree(std::move(corners));
+    }
+
+    // Of the small parts, one after the other, that which reaches farthest from the large ones and from those taken
+    // already: as long as that is farther than `distance` and there are triangles for it (Gonzalez 1985, Clustering to
+    // minimize the maximum intercluster distance).
+    [[nodiscard]] std::vector<const Part*> farthestParts(const std::vector<const Part*>& small,
+                                                         const std::vector<const Part*>& large, double distance,
+                                                         std::size_t triangles) const {
+        std::vector<const Part*> taken;
+        if (large.empty() || small.empty() || triangles == 0) return taken;
+        const TriangleTree tree = treeOf(large);
+        std::vector<double> away;
+        for (const Part* part : small) {
+            float squared = 0.0f;
+            for (const std::uint32_t i : part->triangles) {
+                for (int k = 0; k < 3; ++k)
+                    squared = std::max(squared, tree.closest(glm::vec3(mesh_.positions[triangles_[i][k]])).squaredDistance);
+            }
+            away.push_back(std::sqrt(static_cast<double>(squared)));
+        }
+        for (;;) {
+            const auto farthest = static_cast<std::size_t>(std::ranges::max_element(away) - away.begin());
+            const Part* const part = small[farthest];
+            const std::size_t needed = std::min(part->triangles.size(), kMostTriangles);
+            if (away[farthest] <= distance || needed > triangles) return taken;
+            triangles -= needed;
+            taken.push_back(part);
+            for (std::size_t i = 0; i < small.size(); ++i) {
+                const double between = glm::distance(small[i]->centre, part->centre) + 0.5 * small[i]->bounds.diagonal();
+                away[i] = std::min(away[i], i == farthest ? 0.0 : between);
+            }
+        }
+    }
 
     static const Part* largestOf(const Run& run) {
         return *std::ranges::max_element(run, {}, [](const Part* part) { return part->area; });

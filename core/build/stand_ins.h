@@ -20,8 +20,8 @@ struct StandIns {
 };
 
 // `triangles` of positions, of one piece that should have `aim` triangles. Parts are connected by positions;
-// those whose share of the aim, by area, is less than a tetrahedron are small. None where small parts are few
-// or matter little.
+// those whose share of the aim, by area, is less than a tetrahedron are small. Where these are few or matter little,
+// only those far from all others have stand-ins, each its own.
 // `numbering` is for the positions that the triangles have.
 [[nodiscard]] StandIns makeStandIns(BlockMesh& mesh, std::span<const glm::uvec3> triangles, std::size_t aim,
                                     Numbering& numbering);

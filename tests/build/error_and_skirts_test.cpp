@@ -216,7 +216,7 @@ TEST(Skirts, DoNotReachForWhatIsGone) {
     }
     mesh.triangles.emplace_back(first, first + 1, first + 2);
     mesh.triangles.emplace_back(first + 2, first + 1, first + 3);
-    const BlockBuild built = build(blockOf(mesh), settingsOf(64, 4));
+    const BlockBuild built = build(blockOf(mesh), settingsOf(24, 4));
     const double error = static_cast<double>(built.block.nodes[0].geometricErrorMetres);
     EXPECT_GT(error, 10.0);  // the scrap is gone
     float deepest = 0.0f;

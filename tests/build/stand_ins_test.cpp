@@ -124,6 +124,30 @@ TEST(StandIns, AreNotMadeOfOneSurfaceFewPartsOrClutter) {
     EXPECT_TRUE(standInsOf(enough, enough.triangles.size()).empty());
 }
 
+// Two heaps of specks far from the ground and one just above it: one speck of each far heap is kept for all of it.
+TEST(StandIns, KeepClutterOnlyWhereNothingElseIsNear) {
+    Parts parts;
+    for (int i = 0; i < 100; ++i) parts.addBox({i * 1000.0, 40000, 0}, glm::dvec3(1000));  // the ground: they touch
+    const std::size_t ground = parts.triangles.size();
+    const auto addHeap = [&](const glm::dvec3& at) {
+        for (int i = 0; i < 10; ++i) parts.addBox(at + glm::dvec3(i * 50.0, 0, 0), glm::dvec3(20));
+    };
+    addHeap({50000, 60000, 0});
+    addHeap({0, 25000, 0});
+    addHeap({50000, 40500, 1600});
+    const StandIns made = standInsOf(parts, 256);  // of which sixteen triangles at most
+    EXPECT_EQ(made.triangles.size(), 8u);
+    std::array<int, 4> replaced{};  // the ground and the heaps
+    for (std::size_t t = 0; t < parts.triangles.size(); ++t) {
+        const std::size_t where = t < ground ? 0 : 1 + (t - ground) / 120;
+        replaced[where] += made.replaced[t];
+    }
+    EXPECT_EQ(replaced, (std::array<int, 4>{0, 12, 12, 0}));
+    const StandIns fewer = standInsOf(parts, 64);  // room for one: the farthest
+    EXPECT_EQ(std::count(fewer.replaced.begin() + 1200, fewer.replaced.begin() + 1320, 1), 12);
+    EXPECT_EQ(std::ranges::count(fewer.replaced, 1), 12);
+}
+
 RC_GTEST_PROP(StandIns, AreSoundForAnyParts, (std::uint64_t seed)) {
     Random random(seed);
     Parts parts;
