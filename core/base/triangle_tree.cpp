@@ -1,7 +1,6 @@
 #include "base/triangle_tree.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace fb {
 namespace {
@@ -46,43 +45,57 @@ ClosestPoint closestOnTriangle(const glm::dvec3& p, const TriangleCorners& corne
     return sum > 0.0 ? result(vb / sum, vc / sum) : result(0.0, 0.0);
 }
 
+struct TriangleTree::Placed {
+    glm::vec3 centre;  // sum of the corners
+    std::uint32_t triangle;
+};
+
 TriangleTree::TriangleTree(std::vector<TriangleCorners> triangles) : triangles_(std::move(triangles)) {
-    order_.resize(triangles_.size());
-    std::iota(order_.begin(), order_.end(), 0u);
+    std::vector<Placed> entries;
+    entries.reserve(triangles_.size());
+    for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
+        const TriangleCorners& t = triangles_[i];
+        entries.push_back({t[0] + t[1] + t[2], i});
+    }
     nodes_.reserve(triangles_.size());
-    if (!triangles_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
-    inOrder_.reserve(order_.size());
-    for (const std::uint32_t i : order_) inOrder_.push_back(triangles_[i]);
+    if (!entries.empty()) build(entries, 0);
+    order_.reserve(entries.size());
+    inOrder_.reserve(entries.size());
+    for (const Placed& entry : entries) {
+        order_.push_back(entry.triangle);
+        inOrder_.push_back(triangles_[entry.triangle]);
+    }
 }
 
-std::uint32_t TriangleTree::build(std::uint32_t begin, std::uint32_t end) {
+// Of entries that begin with number `first`; boxes are known from the leaves up.
+std::uint32_t TriangleTree::build(std::span<Placed> entries, std::uint32_t first) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back();
-    Box3f box, centres;
-    for (std::uint32_t i = begin; i < end; ++i) {
-        const TriangleCorners& t = triangles_[order_[i]];
-        for (const glm::vec3& corner : t) box.grow(corner);
-        centres.grow(t[0] + t[1] + t[2]);
-    }
-    nodes_[index].box = box;
-    if (end - begin <= kLeafSize) {
-        nodes_[index].first = begin;
-        nodes_[index].count = end - begin;
-        std::sort(order_.begin() + begin, order_.begin() + end);
+    const auto count = static_cast<std::uint32_t>(entries.size());
+    if (count <= kLeafSize) {
+        std::ranges::sort(entries, {}, &Placed::triangle);
+        Node& leaf = nodes_[index];
+        leaf.first = first;
+        leaf.count = count;
+        for (const Placed& entry : entries) {
+            for (const glm::vec3& corner : triangles_[entry.triangle]) leaf.box.grow(corner);
+        }
         return index;
     }
+    Box3f centres;
+    for (const Placed& entry : entries) centres.grow(entry.centre);
     const int axis = centres.longestAxis();
-    const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         const TriangleCorners &s = triangles_[a], &t = triangles_[b];
-                         const float left = s[0][axis] + s[1][axis] + s[2][axis];
-                         const float right = t[0][axis] + t[1][axis] + t[2][axis];
-                         return left != right ? left < right : a < b;
-                     });
-    build(begin, middle);
-    const std::uint32_t second = build(middle, end);
-    nodes_[index].first = second;
+    const std::uint32_t half = count / 2;
+    std::ranges::nth_element(entries, entries.begin() + half, [axis](const Placed& a, const Placed& b) {
+        const float left = a.centre[axis], right = b.centre[axis];
+        return left != right ? left < right : a.triangle < b.triangle;
+    });
+    build(entries.first(half), first);
+    const std::uint32_t second = build(entries.subspan(half), first + half);
+    Node& node = nodes_[index];
+    node.first = second;
+    node.box = nodes_[index + 1].box;
+    node.box.grow(nodes_[second].box);
     return index;
 }
 

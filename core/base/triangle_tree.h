@@ -63,7 +63,8 @@ class TriangleTree {
   private:
     static constexpr std::uint32_t kLeafSize = 4;
 
-    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+    struct Placed;  // a triangle by its centre
+    std::uint32_t build(std::span<Placed> entries, std::uint32_t first);
     [[nodiscard]] static float squaredDistance(const Box3f& box, const glm::vec3& p) {
         const glm::vec3 d = glm::max(glm::max(box.min - p, p - box.max), glm::vec3(0.0f));
         return glm::dot(d, d);
