@@ -8,7 +8,7 @@
 namespace fb {
 
 // Raised whenever the same source and settings give other nodes than before.
-inline constexpr std::uint64_t kBuilderVersion = 14;
+inline constexpr std::uint64_t kBuilderVersion = 15;
 
 // Of every knob of the group "build", and of kBuilderVersion.
 [[nodiscard]] std::uint64_t hashBuildSettings(const BuildSettings& settings);

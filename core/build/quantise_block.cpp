@@ -13,6 +13,9 @@ namespace {
 // Below this step the areas of triangles would no longer be normal floats.
 const double kSmallestStep = std::ldexp(1.0, kMinGridExponent);
 
+// Room around the block, in lengths of its longest side: for skirts that hang below and beyond it.
+constexpr double kRoom = 1.0 / 32.0;
+
 // What a material makes of a vertex.
 struct Coating {
     std::uint32_t surface = 0;
@@ -157,12 +160,12 @@ BlockGrid gridFor(const Box3d& bounds) {
     const glm::dvec3 size = bounds.size();
     const double extent = std::max(size.x, std::max(size.y, size.z));
     // Two points are kept back: one for rounding the origin down, one for rounding positions up.
-    const double wanted = std::max(extent / (kGridSize - 2), kSmallestStep);
+    const double wanted = std::max(extent * (1.0 + 2.0 * kRoom) / (kGridSize - 2), kSmallestStep);
     int exponent = 0;
     const double fraction =
         std::frexp(wanted, &exponent);  // wanted = fraction * 2^exponent, fraction in [0.5, 1)
     grid.step = std::ldexp(1.0, fraction == 0.5 ? exponent - 1 : exponent);
-    grid.origin = glm::floor(bounds.min / grid.step) * grid.step;
+    grid.origin = glm::floor((bounds.min - kRoom * extent) / grid.step) * grid.step;
     return grid;
 }
 

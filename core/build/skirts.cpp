@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <unordered_set>
 
 #include "build/border_edges.h"
 #include "build/farthest_from.h"
@@ -18,6 +19,8 @@ constexpr int kProbes = 6;  // along an edge, besides its first end
 constexpr double kSpare = 1.25;
 // The other block's border may lie as far off as this one's, to the other side.
 constexpr double kBlockFactor = 2.0;
+// Of an edge's length, to close what rounding leaves open (rasterisers place vertices to 1/256 of a pixel).
+constexpr double kSeal = 1.0 / 64.0;
 // A spike's tip is farther from the straight line below it than that is from the spike.
 constexpr double kStrayFactor = 2.0;
 // The surface runs along the cutting plane rather than through it.
@@ -50,7 +53,7 @@ class SkirtPlanner {
   public:
     SkirtPlanner(BlockMesh& mesh, const std::vector<BlockLevel>& levels,
                  const std::vector<std::vector<double>>& errors)
-        : mesh_(mesh), levels_(levels), errors_(errors), lines_(levels.size()) {}
+        : mesh_(mesh), levels_(levels), errors_(errors), lines_(levels.size()), edges_(levels.size()) {}
 
     std::vector<std::vector<Skirts>> plan() {
         std::vector<std::vector<PieceBorder>> borders(levels_.size());
@@ -92,9 +95,14 @@ class SkirtPlanner {
                 const auto [a, b] = ends(border, edge);
                 const glm::vec3 p(mesh_.positions[a]), q(mesh_.positions[b]);
                 segments[{edge.kind, edge.plane}].push_back({p, q, q});
+                edges_[l].insert(keyOf(a, b));
             }
         }
         for (auto& [key, line] : segments) lines_[l].emplace(key, TriangleTree(std::move(line)));
+    }
+
+    static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
+        return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
     }
 
     static std::pair<std::uint32_t, std::uint32_t> ends(const PieceBorder& border, const BorderEdge& edge) {
@@ -192,14 +200,26 @@ class SkirtPlanner {
         return depth;
     }
 
+    // Where a finer level has vertices along an edge, rounding on the screen leaves pinholes.
+    double sealOf(const PieceBorder& border, const BorderEdge& edge, std::size_t l) const {
+        if (edge.kind == BorderKind::free) return 0.0;
+        const auto [a, b] = ends(border, edge);
+        const std::uint64_t key = keyOf(a, b);
+        for (std::size_t m = l + 1; m < levels_.size(); ++m) {
+            if (!edges_[m].contains(key)) return kSeal * glm::distance(pointOf(mesh_, a), pointOf(mesh_, b));
+        }
+        return 0.0;
+    }
+
     Skirts skirtsOf(const PieceBorder& border, std::size_t l, std::size_t i) {
         std::map<std::pair<LineKey, std::uint32_t>, Hem> hems;  // by line and position
         Skirts skirts;
         for (const BorderEdge& edge : border.edges) {
             const auto [a, b] = ends(border, edge);
             const std::array<glm::dvec3, 2> downs = {downFrom(border, edge, a), downFrom(border, edge, b)};
-            const double depth = depthOf(border, edge, l, i, downs[0] + downs[1]);
-            skirts.gapGridUnits = std::max(skirts.gapGridUnits, depth);
+            const double gap = depthOf(border, edge, l, i, downs[0] + downs[1]);
+            const double depth = std::max(gap, sealOf(border, edge, l));
+            skirts.gapGridUnits = std::max(skirts.gapGridUnits, gap);
             for (std::size_t k = 0; k < 2; ++k) {
                 Hem& hem = hems[{{edge.kind, edge.plane}, k == 0 ? a : b}];
                 hem.down += downs[k];
@@ -228,6 +248,7 @@ class SkirtPlanner {
     const std::vector<BlockLevel>& levels_;
     const std::vector<std::vector<double>>& errors_;
     std::vector<std::map<LineKey, TriangleTree>> lines_;  // by level
+    std::vector<std::unordered_set<std::uint64_t>> edges_;  // by level, of all lines: ends
     // By level, other level and line: how far each segment strays, or -1.
     std::map<std::tuple<std::size_t, std::size_t, LineKey>, std::vector<float>> strays_;
 };

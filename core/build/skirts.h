@@ -2,8 +2,9 @@
 // border hangs a strip of triangles, behind the surface, as deep as the gap to any other level's border can be there.
 // On a cut it lies in the cutting plane, in which all levels' borders lie: seen from in front, whatever lies between
 // two of them is covered by the skirt of the one above. Between blocks, where borders are no plane lines and the other
-// block is not known, it leans outward at 45 degrees and is twice as deep. Where all levels agree (straight edges) none
-// is made. Comes from make_levels and measure_error, goes to finish_node.
+// block is not known, it leans outward at 45 degrees and is twice as deep. Where levels agree but for how a straight
+// border is divided, the coarser one has a narrow one against pinholes; where they agree altogether there is none. Comes
+// from make_levels and measure_error, goes to finish_node.
 #pragma once
 
 #include <vector>

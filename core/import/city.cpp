@@ -10,7 +10,7 @@
 namespace fb {
 namespace {
 
-constexpr std::uint64_t kGeneratorVersion = 3;  // raise it when the same options give another city
+constexpr std::uint64_t kGeneratorVersion = 4;  // raise it when the same options give another city
 
 constexpr std::uint64_t kHillsVersion = 1;      // the same for cities on hills
 

@@ -27,6 +27,15 @@ double standsAt(const CityPlan& plan, const Unit& unit, const Thing& thing) {
     return plan.hills.within(lump.base.x - x, lump.base.z - z, lump.base.x + x, lump.base.z + z).low;
 }
 
+// Where the ground goes on in the next unit.
+void markBorder(const Rect& region, SourceMesh& mesh) {
+    mesh.shared.reserve(mesh.positions.size());
+    for (const glm::dvec3& p : mesh.positions) {
+        const bool isOnBorder = p.x == region.x0 || p.x == region.x1 || p.z == region.z0 || p.z == region.z1;
+        mesh.shared.push_back(isOnBorder ? 1 : 0);
+    }
+}
+
 }  // namespace
 
 SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& budget,
@@ -78,6 +87,7 @@ SourceBlock makeBlock(const CityPlan& plan, const Unit& unit, const UnitBudget& 
     FB_CHECK(mesh.triangleCount() == budget.triangles);
     if (plan.hills.exist) addFoundations(plan, unit, kGrey, mesh);
     block.mesh = mesh.finish();
+    markBorder(unit.region, block.mesh);
     return block;
 }
 

@@ -191,14 +191,21 @@ TEST(Skirts, CloseTheGapsBetweenLevels) {
 
 }
 
-// Straight cuts through flat ground agree at all levels.
-TEST(Skirts, AreNotMadeWhereLevelsAgree) {
+// Straight cuts through flat ground agree at all levels but for how they are divided: the coarser levels' edges have
+// narrow skirts against pinholes, a 64th of their length deep; leaves have none.
+TEST(Skirts, AreNarrowWhereLevelsAgree) {
     const BlockBuild flat = build(blockOf(makeSheet({40, 40, 40.0, 40.0, {}})), settingsOf(64, 4));
     EXPECT_GT(flat.nodes.size(), 4u);
-    for (const BuiltNode& node : flat.block.nodes) {
-        EXPECT_EQ(node.skirtTriangles, 0u);
+    std::uint64_t skirts = 0;
+    for (std::size_t n = 0; n < flat.nodes.size(); ++n) {
+        const BuiltNode& node = flat.block.nodes[n];
+        skirts += node.skirtTriangles;
         EXPECT_EQ(node.borderErrorMetres, 0.0f);
+        EXPECT_TRUE(node.childCount > 0 || node.skirtTriangles == 0u);
+        EXPECT_GT(node.bounds.min.z, -0.8f);  // edges of at most 40 m, and a quarter to spare
+        EXPECT_EQ(node.bounds.max.z, 0.0f);
     }
+    EXPECT_GT(skirts, 0u);
 }
 
 // A scrap that hovers over the border that the ground has in common with another block is gone in coarse levels: what
@@ -235,7 +242,7 @@ TEST(Skirts, CountNeitherInAreaNorInTheBenefit) {
         EXPECT_EQ(node.skirtTriangles, built.nodes[n].mesh.texturedSkirts + built.nodes[n].mesh.untexturedSkirts);
         const auto surface = static_cast<float>(test::trianglesOf(node) - node.skirtTriangles);
         EXPECT_NEAR(node.staticBenefit, std::sqrt(surface * node.areaSquareMetres), 1e-3f * node.staticBenefit);
-        EXPECT_EQ(node.skirtTriangles > 0, node.borderErrorMetres > 0.0f);
+        EXPECT_TRUE(node.borderErrorMetres == 0.0f || node.skirtTriangles > 0u);
     }
     EXPECT_GT(skirts, 0u);
 }

@@ -21,21 +21,22 @@ QuantisedBlock quantise(const SourceBlock& block) {
 }
 
 TEST(GridFor, TakesTheFinestPowerOfTwoWhosePointsHoldTheBox) {
-    // 2^24 - 2 steps of 1 m just hold this box, one metre more does not fit.
-    EXPECT_EQ(gridFor({glm::dvec3(0), glm::dvec3(16777214, 5, 5)}).step, 1.0);
-    EXPECT_EQ(gridFor({glm::dvec3(0), glm::dvec3(16777215, 5, 5)}).step, 2.0);
+    // 2^24 - 2 steps of 1 m just hold this box with a 32nd of room on both sides, one metre more does not fit:
+    // (2^24 - 2) / 1.0625 = 15790319.06.
+    EXPECT_EQ(gridFor({glm::dvec3(0), glm::dvec3(15790319, 5, 5)}).step, 1.0);
+    EXPECT_EQ(gridFor({glm::dvec3(0), glm::dvec3(15790320, 5, 5)}).step, 2.0);
     EXPECT_EQ(gridFor({glm::dvec3(0), glm::dvec3(100, 0, 0)}).step,
-              std::ldexp(1.0, -17));  // 100 / 2^24 = 5.96e-6
+              std::ldexp(1.0, -17));  // 106.25 / 2^24 = 6.33e-6
 }
 
 TEST(GridFor, PutsItsOriginOnAMultipleOfTheStepBelowTheBox) {
-    const BlockGrid grid = gridFor({glm::dvec3(-0.3, 1000.7, 5), glm::dvec3(60, 1020, 7)});
+    const BlockGrid grid = gridFor({glm::dvec3(-0.3, 1000.7, 5), glm::dvec3(55.7, 1020, 7)});
     EXPECT_EQ(grid.step, std::ldexp(1.0, -18));
     for (int axis = 0; axis < 3; ++axis) {
         EXPECT_EQ(grid.origin[axis] / grid.step, std::floor(grid.origin[axis] / grid.step));
     }
-    EXPECT_LE(grid.origin.x, -0.3);
-    EXPECT_GT(grid.origin.x, -0.3 - grid.step);
+    EXPECT_LE(grid.origin.x, -0.3 - 56.0 / 32.0);
+    EXPECT_GT(grid.origin.x, -0.3 - 56.0 / 32.0 - 2.0 * grid.step);
 }
 
 TEST(QuantiseBlock, MovesNoVertexByMoreThanHalfAStepAlongAnAxis) {
@@ -173,7 +174,7 @@ RC_GTEST_PROP(QuantiseBlock, PutsEverySizeAndOffsetOntoTheGrid, (std::uint64_t s
     const glm::dvec3 extent = bounds.size();
     const double longest = std::max(extent.x, std::max(extent.y, extent.z));
     RC_ASSERT(longest <= grid.step * (kGridSize - 2));
-    RC_ASSERT(longest > 0.5 * grid.step * (kGridSize - 2));
+    RC_ASSERT(longest * 1.0625 > 0.5 * grid.step * (kGridSize - 2));  // with room on both sides
     for (const GridPoint& p : result.mesh.positions) {
         for (int axis = 0; axis < 3; ++axis) {
             RC_ASSERT(p[axis] >= 0);

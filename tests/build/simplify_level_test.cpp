@@ -129,7 +129,7 @@ TEST_P(BothSimplifiers, KeepATextureSeamClosed) {
         ASSERT_TRUE(onRight == 0 || onRight == 3);
         for (int k = 0; k < 3; ++k) {
             const GridPoint& p = world.mesh.at(t[k]);
-            if (std::abs(p.x * world.mesh.grid.step - 2.0) < 1e-6) {
+            if (std::abs(world.mesh.grid.origin.x + p.x * world.mesh.grid.step - 2.0) < 1e-6) {
                 (onRight == 3 ? right : left).insert(world.mesh.wedges[t[k]].position);
             }
         }
@@ -182,10 +182,11 @@ TEST_P(BothSimplifiers, NeverLeaveAPieceWithoutTriangles) {
 TEST(SimplifyWithMeshoptimizer, KeepsEveryLockedVertex) {
     const World world(makeSheet({30, 30, 3.0, 3.0, bumps}));
     SimplifyInput input;
+    const std::int32_t left = std::ranges::min(world.mesh.positions, {}, &GridPoint::x).x;
     for (const GridPoint& p : world.mesh.positions) {
         input.places.push_back(static_cast<std::uint32_t>(input.points.size()));
         input.points.emplace_back(p);
-        input.locked.push_back(p.x == 0 ? 1 : 0);
+        input.locked.push_back(p.x == left ? 1 : 0);
     }
     for (const MeshTriangle& t : world.level.triangles) {
         input.triangles.emplace_back(world.mesh.wedges[t.wedges.x].position,
