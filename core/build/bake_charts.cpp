@@ -89,7 +89,7 @@ class ChartBaker {
         }
         const glm::dvec3 centre = 0.5 * (box.min + box.max);
         surface_.findCandidates(glm::vec3(centre), static_cast<float>(0.5 * glm::length(box.max - box.min)),
-                                normalOf(t), near_, candidates_);
+                                glm::vec3(normalOf(mesh_, t.positions)), near_, candidates_);
         search_.clear(centre);
         for (const glm::dvec3& point : points_) search_.add(point);
         corners_.clear();
@@ -127,11 +127,6 @@ class ChartBaker {
         }
         const auto count = static_cast<unsigned>(across_ * across_);
         return glm::u8vec4((sum + count / 2) / count);
-    }
-
-    [[nodiscard]] glm::vec3 normalOf(const NodeTriangle& t) const {
-        return glm::vec3(glm::normalize(crossOf(mesh_.positions[t.positions.x], mesh_.positions[t.positions.y],
-                                                mesh_.positions[t.positions.z])));
     }
 
     void write(const glm::ivec2& texel, const glm::u8vec4& colour) {

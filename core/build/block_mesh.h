@@ -82,6 +82,11 @@ struct Level {
 [[nodiscard]] inline glm::dvec3 crossOf(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
     return glm::cross(glm::dvec3(b - a), glm::dvec3(c - a));
 }
+// Of a triangle of positions that is not degenerate; unit.
+[[nodiscard]] inline glm::dvec3 normalOf(const BlockMesh& mesh, const glm::uvec3& positions) {
+    return glm::normalize(
+        crossOf(mesh.positions[positions.x], mesh.positions[positions.y], mesh.positions[positions.z]));
+}
 [[nodiscard]] inline bool isDegenerate(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
     return crossOf(a, b, c) == glm::dvec3(0.0);
 }

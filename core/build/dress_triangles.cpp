@@ -10,8 +10,7 @@ namespace fb {
 namespace {
 
 glm::vec3 faceNormal(const BlockMesh& mesh, const glm::uvec3& positions) {
-    return glm::vec3(glm::normalize(
-        crossOf(mesh.positions[positions.x], mesh.positions[positions.y], mesh.positions[positions.z])));
+    return glm::vec3(normalOf(mesh, positions));
 }
 
 struct OriginalCorner {

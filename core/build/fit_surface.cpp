@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "build/least_squares.h"
 #include "base/triangle_tree.h"
+#include "build/least_squares.h"
 
 namespace fb {
 namespace {

@@ -12,11 +12,6 @@ namespace {
 // behind.
 constexpr double kLeastCosine = 0.5;
 
-glm::dvec3 normalOf(const BlockMesh& mesh, const NodeTriangle& t) {
-    return glm::normalize(
-        crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y], mesh.positions[t.positions.z]));
-}
-
 // Which triangles share an edge: pairs of triangle and neighbour, sorted.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> findNeighbours(std::span<const NodeTriangle> triangles) {
     struct Edge {
@@ -52,7 +47,7 @@ class ChartGrower {
 
     Chart grow(std::uint32_t seed, std::uint32_t chartNumber) {
         taken_.clear();
-        const glm::dvec3 normal = normalOf(mesh_, triangles_[seed]);
+        const glm::dvec3 normal = normalOf(mesh_, triangles_[seed].positions);
         // Any two directions across it; along a ground or wall axis where there is one, which packs best.
         const glm::dvec3 helper = std::abs(normal.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
         const glm::dvec3 right = glm::normalize(glm::cross(helper, normal));
@@ -67,7 +62,7 @@ class ChartGrower {
         for (std::size_t at = 0; at < queue.size(); ++at) {
             NodeTriangle& t = triangles_[queue[at]];
             if (t.chart != kNone) continue;
-            if (at > 0 && glm::dot(normalOf(mesh_, t), normal) < kLeastCosine) continue;
+            if (at > 0 && glm::dot(normalOf(mesh_, t.positions), normal) < kLeastCosine) continue;
             const Corners2 corners = project(t);
             if (!claim(corners) && at > 0) continue;
             t.chart = chartNumber;

@@ -101,9 +101,7 @@ class AtlasMaker {
         const BlockMesh& mesh = task_.mesh;
         for (NodeTriangle& t : triangles_) {
             if (t.surface == 0 && !t.baked) continue;
-            const glm::vec3 normal(
-                glm::normalize(crossOf(mesh.positions[t.positions.x], mesh.positions[t.positions.y],
-                                       mesh.positions[t.positions.z])));
+            const glm::vec3 normal(normalOf(mesh, t.positions));
             for (int k = 0; k < 3; ++k) {
                 glm::u8vec4& colour = t.colours[static_cast<std::size_t>(k)];
                 if (t.baked) {

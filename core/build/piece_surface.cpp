@@ -100,8 +100,7 @@ glm::u8vec4 PieceSurface::colourAt(const Hit& hit, double sideGridUnits) const {
     return TriangleColours(*this, hit.triangle, sideGridUnits).at(hit.weights);
 }
 
-TriangleColours::TriangleColours(const PieceSurface& surface, std::uint32_t triangle, double sideGridUnits)
-    : triangle_(triangle) {
+TriangleColours::TriangleColours(const PieceSurface& surface, std::uint32_t triangle, double sideGridUnits) {
     const BlockMesh& mesh = surface.mesh_;
     const MeshTriangle& t = surface.piece_[triangle];
     for (int k = 0; k < 3; ++k) {

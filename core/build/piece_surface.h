@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "base/triangle_tree.h"
 #include "build/block_mesh.h"
 #include "build/block_textures.h"
-#include "base/triangle_tree.h"
 
 namespace fb {
 
@@ -34,7 +34,6 @@ class PieceSurface {
     [[nodiscard]] glm::u8vec4 vertexColourAt(const Hit& hit) const;
     // Texture times vertex colour, averaged over a square with this side in grid units.
     [[nodiscard]] glm::u8vec4 colourAt(const Hit& hit, double sideGridUnits) const;
-    friend class TriangleColours;
     // Texels of the original's textures per grid unit of length, on average; 0 without textures.
     [[nodiscard]] double texelsPerGridUnit() const { return texelsPerGridUnit_; }
     [[nodiscard]] double texturedGridArea() const { return texturedGridArea_; }
@@ -42,6 +41,7 @@ class PieceSurface {
     [[nodiscard]] const TriangleCorners& corners(std::uint32_t triangle) const { return tree_.triangles()[triangle]; }
 
   private:
+    friend class TriangleColours;
     [[nodiscard]] double density(std::uint32_t triangle) const;
 
     const BlockMesh& mesh_;
@@ -59,10 +59,8 @@ class TriangleColours {
     TriangleColours(const PieceSurface& surface, std::uint32_t triangle, double sideGridUnits);
     // Texture times vertex colour.
     [[nodiscard]] glm::u8vec4 at(const glm::vec3& weights) const;
-    [[nodiscard]] std::uint32_t triangle() const { return triangle_; }
 
   private:
-    std::uint32_t triangle_;
     std::array<glm::vec4, 3> colours_;
     std::array<glm::vec2, 3> uvs_;
     bool oneColour_ = false, hasHoles_ = false;

@@ -113,8 +113,7 @@ class SkirtPlanner {
     // Unit: from one end of the edge to where the skirt hangs.
     glm::dvec3 downFrom(const PieceBorder& border, const BorderEdge& edge, std::uint32_t end) const {
         const glm::uvec3& t = border.drawn[edge.triangle];
-        const glm::dvec3 face = glm::normalize(
-            crossOf(mesh_.positions[t.x], mesh_.positions[t.y], mesh_.positions[t.z]));
+        const glm::dvec3 face = normalOf(mesh_, t);
         const auto [a, b] = ends(border, edge);
         const glm::dvec3 outward = glm::cross(glm::normalize(pointOf(mesh_, b) - pointOf(mesh_, a)), face);
         if (edge.kind != BorderKind::cut) return glm::normalize(outward - face);

@@ -6,6 +6,16 @@
 namespace fb {
 namespace {
 
+// As the texture of a node of one triangle.
+Result<DecodedNode> decodeTexture(const NodeTexture& texture) {
+    NodeData node;
+    node.mesh.vertices.resize(3);
+    node.mesh.indices = {0, 1, 2};
+    node.mesh.texturedTriangles = 1;
+    node.texture = texture;
+    return decodeNode(node, BlockGrid{}, "test");
+}
+
 TEST(EncodeTexture, GivesBackPngTexelsExactlyAndJpegTexelsNearly) {
     Image image{24, 16, 3, {}, false};
     for (int y = 0; y < 16; ++y) {
@@ -19,12 +29,7 @@ TEST(EncodeTexture, GivesBackPngTexelsExactlyAndJpegTexelsNearly) {
         ASSERT_TRUE(texture) << texture.error().oneLine();
         EXPECT_EQ(texture->width, 24);
         EXPECT_EQ(texture->channels, 3);
-        NodeData node;
-        node.mesh.vertices.resize(3);
-        node.mesh.indices = {0, 1, 2};
-        node.mesh.texturedTriangles = 1;
-        node.texture = *texture;
-        const Result<DecodedNode> decoded = decodeNode(node, BlockGrid{}, "test");
+        const Result<DecodedNode> decoded = decodeTexture(*texture);
         ASSERT_TRUE(decoded) << decoded.error().oneLine();
         for (std::size_t i = 0; i < 24 * 16; ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
@@ -41,12 +46,7 @@ TEST(EncodeTexture, KeepsColoursUnderTransparentTexels) {
         image.pixels.insert(image.pixels.end(), {200, 100, 50, static_cast<std::uint8_t>(i * 17)});
     Result<NodeTexture> texture = encodeTexture(image, PayloadCodec::png, 92);
     ASSERT_TRUE(texture);
-    NodeData node;
-    node.mesh.vertices.resize(3);
-    node.mesh.indices = {0, 1, 2};
-    node.mesh.texturedTriangles = 1;
-    node.texture = *texture;
-    const Result<DecodedNode> decoded = decodeNode(node, BlockGrid{}, "test");
+    const Result<DecodedNode> decoded = decodeTexture(*texture);
     ASSERT_TRUE(decoded) << decoded.error().oneLine();
     EXPECT_EQ(std::vector<std::uint8_t>(decoded->texels.begin(), decoded->texels.begin() + 64), image.pixels);
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/random.h"
-#include "build/least_squares.h"
 #include "base/triangle_tree.h"
+#include "build/least_squares.h"
 
 namespace fb {
 namespace {

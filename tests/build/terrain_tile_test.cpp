@@ -6,11 +6,11 @@
 #include <map>
 #include <optional>
 
+#include "base/triangle_tree.h"
 #include "build/simplify_height_field.h"
 #include "build/terrain_error.h"
 #include "build/terrain_skirts.h"
 #include "build/terrain_tree.h"
-#include "base/triangle_tree.h"
 #include "terrain_world.h"
 
 namespace fb {

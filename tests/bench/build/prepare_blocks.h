@@ -2,8 +2,8 @@
 // measure between, in metres from one common point. Comes from open_source, goes to sample_distance.
 #pragma once
 
-#include "build/block_levels.h"
 #include "base/triangle_tree.h"
+#include "build/block_levels.h"
 #include "import/source_scene.h"
 
 namespace fb::bench {
