@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/edge_uses.h"
 #include "base/triangle_tree.h"
 #include "build/least_squares.h"
 
@@ -32,10 +33,9 @@ class SurfaceFit {
         for (const glm::uvec3& t : drawn) {
             glm::uvec3 local;
             for (int k = 0; k < 3; ++k) {
-                const auto next = static_cast<std::uint32_t>(vertices_.size());
-                const std::uint32_t known = numbering.findOrSet(t[k], next);
-                local[k] = known == kNone ? next : known;
-                if (known == kNone) vertices_.push_back(t[k]);
+                const auto [number, isNew] = numbering.take(t[k]);
+                local[k] = number;
+                if (isNew) vertices_.push_back(t[k]);
             }
             triangles_.push_back(local);
         }
@@ -74,10 +74,9 @@ class SurfaceFit {
             glm::uvec3 positions, numbers;
             for (int k = 0; k < 3; ++k) {
                 positions[k] = mesh_.wedges[t.wedges[k]].position;
-                const auto next = static_cast<std::uint32_t>(all.size());
-                const std::uint32_t known = numbering.findOrSet(positions[k], next);
-                numbers[k] = known == kNone ? next : known;
-                if (known == kNone) all.emplace_back();
+                const auto [number, isNew] = numbering.take(positions[k]);
+                numbers[k] = number;
+                if (isNew) all.emplace_back();
                 if (numbers[k] < drawn) isFixed_[numbers[k]] = 0;
             }
             const glm::dvec3 cross = crossOf(mesh_.positions[positions.x], mesh_.positions[positions.y],
@@ -94,15 +93,13 @@ class SurfaceFit {
 
     // Also where an edge has not two triangles.
     void findFixed() {
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-        for (const glm::uvec3& t : triangles_) {
-            for (int k = 0; k < 3; ++k) edges.push_back({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+        std::vector<EdgeUse> uses;
+        for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+            for (std::uint32_t k = 0; k < 3; ++k) uses.push_back(edgeUse(triangles_[t], t, k));
         }
-        std::ranges::sort(edges);
-        for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-            while (next < edges.size() && edges[next] == edges[i]) ++next;
-            if (next != i + 2) isFixed_[edges[i].first] = isFixed_[edges[i].second] = 1;
-        }
+        visitEdges(uses, [&](std::span<const EdgeUse> of) {
+            if (of.size() != 2) isFixed_[of[0].low] = isFixed_[of[0].high] = 1;
+        });
         for (std::size_t v = 0; v < vertices_.size(); ++v) {
             if (mesh_.onCut[vertices_[v]] != 0 || mesh_.isOnBlockBorder(vertices_[v])) isFixed_[v] = 1;
         }

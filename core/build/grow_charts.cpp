@@ -2,6 +2,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "base/edge_uses.h"
 #include "build/bake_charts.h"
 #include "build/triangle_texels.h"
 
@@ -14,25 +15,18 @@ constexpr double kLeastCosine = 0.5;
 
 // Which triangles share an edge: pairs of triangle and neighbour, sorted.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> findNeighbours(std::span<const NodeTriangle> triangles) {
-    struct Edge {
-        std::uint32_t low, high, triangle;
-        auto operator<=>(const Edge&) const = default;
-    };
-    std::vector<Edge> edges;
+    std::vector<EdgeUse> uses;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         if (!triangles[i].baked) continue;
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = triangles[i].positions[k], b = triangles[i].positions[(k + 1) % 3];
-            edges.push_back({std::min(a, b), std::max(a, b), i});
-        }
+        for (std::uint32_t k = 0; k < 3; ++k) uses.push_back(edgeUse(triangles[i].positions, i, k));
     }
-    std::sort(edges.begin(), edges.end());
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        if (edges[i].low != edges[i - 1].low || edges[i].high != edges[i - 1].high) continue;
-        pairs.emplace_back(edges[i].triangle, edges[i - 1].triangle);
-        pairs.emplace_back(edges[i - 1].triangle, edges[i].triangle);
-    }
+    visitEdges(uses, [&](std::span<const EdgeUse> of) {
+        for (std::size_t i = 1; i < of.size(); ++i) {
+            pairs.emplace_back(of[i].triangle, of[i - 1].triangle);
+            pairs.emplace_back(of[i - 1].triangle, of[i].triangle);
+        }
+    });
     std::sort(pairs.begin(), pairs.end());
     return pairs;
 }

@@ -13,10 +13,9 @@ MeasuredSurface surfaceOf(const BlockMesh& mesh, std::vector<glm::uvec3> triangl
     std::vector<glm::vec3> points;
     for (glm::uvec3& t : triangles) {
         for (int k = 0; k < 3; ++k) {
-            const auto next = static_cast<std::uint32_t>(points.size());
-            const std::uint32_t known = numbering.findOrSet(t[k], next);
-            if (known == kNone) points.emplace_back(mesh.positions[t[k]]);
-            t[k] = known == kNone ? next : known;
+            const auto [number, isNew] = numbering.take(t[k]);
+            if (isNew) points.emplace_back(mesh.positions[t[k]]);
+            t[k] = number;
         }
     }
     return {std::move(points), std::move(triangles)};

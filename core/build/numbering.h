@@ -5,26 +5,33 @@
 #include <cstdint>
 #include <vector>
 
-#include "build/block_mesh.h"
-
 namespace fb {
 
 class Numbering {
   public:
     explicit Numbering(std::size_t ids) : numbers_(ids, 0), stamps_(ids, 0) {}
 
-    void restart() { ++stamp_; }
-    // The number of `id` since the last restart, or kNone and `next` from now on.
-    std::uint32_t findOrSet(std::uint32_t id, std::uint32_t next) {
-        if (stamps_[id] == stamp_) return numbers_[id];
-        stamps_[id] = stamp_;
-        numbers_[id] = next;
-        return kNone;
+    struct Number {
+        std::uint32_t value;
+        bool isNew;  // the id had none since the last restart
+    };
+
+    void restart(std::uint32_t first = 0) {
+        ++stamp_;
+        next_ = first;
     }
+    // The number of `id`: the next one where it has none yet.
+    Number take(std::uint32_t id) {
+        if (stamps_[id] == stamp_) return {numbers_[id], false};
+        stamps_[id] = stamp_;
+        numbers_[id] = next_;
+        return {next_++, true};
+    }
+    [[nodiscard]] std::uint32_t next() const { return next_; }
 
   private:
     std::vector<std::uint32_t> numbers_, stamps_;
-    std::uint32_t stamp_ = 0;
+    std::uint32_t stamp_ = 0, next_ = 0;
 };
 
 }  // namespace fb

@@ -33,10 +33,10 @@ class PartFinder {
         std::vector<glm::uvec3> numbered;
         numbered.reserve(triangles_.size());
         for (const glm::uvec3& t : triangles_) numbered.emplace_back(number(t.x), number(t.y), number(t.z));
-        Joiner joiner(count_);
+        Joiner joiner(numbering_.next());
         for (const glm::uvec3& t : numbered) joiner.join(joiner.join(t.x, t.y), t.z);
         std::vector<Part> parts;
-        std::vector<std::uint32_t> partOf(count_, kNone);
+        std::vector<std::uint32_t> partOf(numbering_.next(), kNone);
         for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
             std::uint32_t& part = partOf[joiner.find(numbered[i].x)];
             if (part == kNone) {
@@ -63,15 +63,11 @@ class PartFinder {
         part.centre += area / 3.0 * (p[0] + p[1] + p[2]);
         for (const glm::dvec3& corner : p) part.bounds.grow(corner);
     }
-    std::uint32_t number(std::uint32_t position) {
-        const std::uint32_t known = numbering_.findOrSet(position, count_);
-        return known == kNone ? count_++ : known;
-    }
+    std::uint32_t number(std::uint32_t position) { return numbering_.take(position).value; }
 
     const BlockMesh& mesh_;
     std::span<const glm::uvec3> triangles_;
     Numbering& numbering_;
-    std::uint32_t count_ = 0;  // of positions
 };
 
 }  // namespace

@@ -184,26 +184,24 @@ class LevelSimplifier {
         places_.restart();
         std::uint32_t piece = kNone;
         for (const TaggedTriangle& triangle : triangles) {
-            if (triangle.piece != piece) vertices_.restart();
+            if (triangle.piece != piece) vertices_.restart(static_cast<std::uint32_t>(task.ids.size()));
             piece = triangle.piece;
             glm::uvec3 local;
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t id = triangle.ids[k];
-                const auto next = static_cast<std::uint32_t>(task.ids.size());
-                local[k] = vertices_.findOrSet(id, next);
-                if (local[k] != kNone) continue;
-                local[k] = next;
+                const auto [vertex, isNew] = vertices_.take(id);
+                local[k] = vertex;
+                if (!isNew) continue;
                 const std::uint32_t position = positionOf(id, seams);
-                std::uint32_t place = places_.findOrSet(position, task.placeCount);
-                if (place == kNone) place = task.placeCount++;
                 task.ids.push_back(id);
                 task.pieces.push_back(triangle.piece);
                 task.input.points.emplace_back(mesh_.positions[position]);
-                task.input.places.push_back(place);
+                task.input.places.push_back(places_.take(position).value);
                 task.input.locked.push_back(cuts == Cuts::locked ? mesh_.onCut[position] : std::uint8_t{0});
             }
             task.input.triangles.push_back(local);
         }
+        task.placeCount = places_.next();
         return task;
     }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "build/block_mesh.h"
 #include "build/numbering.h"
 
 namespace fb {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/edge_uses.h"
 #include "base/triangle_tree.h"
 
 namespace fb {
@@ -57,19 +58,16 @@ class TouchFinder {
     void addBorder(std::uint32_t b) {
         const SourceMesh& mesh = blocks_[b].mesh;
         const std::vector<std::uint32_t> numbers = numberPositions(mesh.positions);
-        std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-        for (const glm::uvec3& t : mesh.triangles) {
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t p = numbers[t[k]], q = numbers[t[(k + 1) % 3]];
-                edges.emplace_back(std::min(p, q), std::max(p, q));
-            }
+        std::vector<EdgeUse> uses;
+        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+            const glm::uvec3& t = mesh.triangles[i];
+            const glm::uvec3 points(numbers[t.x], numbers[t.y], numbers[t.z]);
+            for (std::uint32_t k = 0; k < 3; ++k) uses.push_back(edgeUse(points, i, k));
         }
-        std::ranges::sort(edges);
         std::vector<std::uint32_t> pointOf(mesh.positions.size(), kNoPoint);  // by number
-        for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
-            while (next < edges.size() && edges[next] == edges[i]) ++next;
-            if (next == i + 1) pointOf[edges[i].first] = pointOf[edges[i].second] = kNew;
-        }
+        visitEdges(uses, [&](std::span<const EdgeUse> of) {
+            if (of.size() == 1) pointOf[of[0].low] = pointOf[of[0].high] = kNew;
+        });
         Box3d box;
         for (const glm::dvec3& p : mesh.positions) box.grow(p);
         for (std::uint32_t v = 0; v < mesh.positions.size(); ++v) {
