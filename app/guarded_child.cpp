@@ -18,7 +18,7 @@ namespace fb {
 namespace {
 
 constexpr rlim_t kWallSeconds = 6 * 3600;
-constexpr int kPatienceMs = 1000;  // from the wish to stop to the kill
+constexpr int kPatienceMs = 900;  // from the wish to stop to the kill
 constexpr char kSeparator = '\x1f';
 
 // A signal handler can reach nothing but an object of static storage.
