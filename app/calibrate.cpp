@@ -18,7 +18,9 @@ void calibrateByDrawing(Workbench& w, const View& view) {
     const std::vector<FrontTimes> none;
     const std::optional<Estimate> overhead = fitOverhead(times ? *times : none);
     const std::optional<Estimate> vTime = fitVTime(times ? *times : none);
-    w.control = startControl(vTime ? vTime->value : kFallbackVTimeMs, overhead ? overhead->value : 0.0);
+    const std::optional<Estimate> fill = fitFill(times ? *times : none);
+    w.control.measured = {vTime ? vTime->value : kFallbackVTimeMs, overhead ? overhead->value : 0.0,
+                          fill ? fill->value : 0.0};
 }
 
 }  // namespace
@@ -34,7 +36,8 @@ void calibrateByModel(Workbench& w) {
         ++roots.nodes;
     }
     const double vTimeMs = modelDrawMs(w.settings.model, roots) / cost;
-    w.control = startControl(vTimeMs > 0.0 ? vTimeMs : kFallbackVTimeMs, w.settings.model.overheadMs);
+    w.control.measured = {vTimeMs > 0.0 ? vTimeMs : kFallbackVTimeMs, w.settings.model.overheadMs,
+                          w.settings.model.fillMsPerMegapixel};
 }
 
 void calibrate(Workbench& w) {

@@ -68,8 +68,9 @@ void askModel(Workbench& w, Calibration& calibration) {
     }
     takeMemory(w, taking);
     calibrateByModel(w);
-    taking.take("control.v_time_start", w.control.calibratedMs, "exact");
-    taking.take("control.overhead", w.control.measuredOverheadMs, "exact");
+    taking.take("control.v_time_start", w.control.measured.vTimeMs, "exact");
+    taking.take("control.overhead", w.control.measured.overheadMs, "exact");
+    taking.take("control.fill", w.control.measured.fillMsPerMegapixel, "exact");
     calibration.facts.push_back("device: simulated (model clock)");
 }
 
@@ -90,6 +91,7 @@ Result<void> measureDevice(Workbench& w, glm::ivec2 size, const Progress& progre
     countCosts(w, fronts->timed, *times);
     taking.takeMeasured("control.v_time_start", fitVTime(*times), "more triangles did not take more time");
     taking.takeMeasured("control.overhead", fitOverhead(*times), "nothing was drawn");
+    taking.takeMeasured("control.fill", fitFill(*times), "filling did not show");
 
     const double disturbed = disturbance(*times);
     calibration.facts.push_back("disturbance: the median time of a picture is " + number("%.2f", disturbed) +

@@ -6,7 +6,8 @@
 
 #include "base/clock.h"
 #include "control/model_device.h"
-#include "measure/front_error.h"
+#include "select/coverage.h"
+#include "select/screen_error.h"
 
 namespace fb {
 namespace {
@@ -27,9 +28,16 @@ FrameRecord& beginRecord(Workbench& w, const FrameInput& input) {
     return record;
 }
 
-void decideFrameEffects(Workbench& w, FrameRecord& record) {
-    const FrameFacts facts{record.speedMetresPerSecond, w.plan.everythingLoaded,
-                           policyOf(w.settings.select.policy).usesShareTime};
+void decideFrameEffects(Workbench& w, const FrameInput& input, FrameRecord& record) {
+    FrameFacts facts;
+    facts.speedMetresPerSecond = record.speedMetresPerSecond;
+    facts.everythingLoaded = w.plan.everythingLoaded;
+    facts.policyUsesShareTime = policyOf(w.settings.select.policy).usesShareTime;
+    const SelectCounters& before = w.selection.counters;
+    facts.slicesUnused = before.refusedGroups > 0 && before.boundBy[static_cast<std::size_t>(BoundBy::leaf)] > 0;
+    facts.fillShare = w.control.fillMsPerMegapixel * 1e-6 * input.width * input.height / w.settings.control.targetMs;
+    facts.residentTextureBytes = w.residency.residentTextureBytes;
+    facts.textureBudgetBytes = textureBudgetBytes(w.settings.load);
     w.effects = decideEffects(w.settings.effects, w.sceneFacts, facts);
     for (std::size_t i = 0; i < kEffectCount; ++i) {
         if (!w.effects.on[i]) continue;
@@ -60,6 +68,20 @@ void planFrameLoads(Workbench& w, const View& view, FrameRecord& record) {
     record.budgetBytes = budgetBytes(w.settings.load);
 }
 
+// What this frame's selection estimates with.
+TimeModel timesOfFrame(Workbench& w, const View& view, FrameRecord& record) {
+    passTime(w.control, w.settings.control, record.dtMs / 1000.0);
+    w.roots.clear();
+    if (w.effects[Effect::fillRate]) {
+        for (NodeId root = 0; root < w.scene->hierarchy.rootCount; ++root) w.roots.push_back(root);
+        record.effectWork[Effect::fillRate] += w.roots.size();
+    }
+    record.megapixels = w.roots.empty() ? 0.0 : coveredMegapixels(w.scene->hierarchy, w.roots, view);
+    const TexturePressure pressure{w.residency.residentTextureBytes, textureBudgetBytes(w.settings.load)};
+    return timeModel(w.control, w.settings.control, w.settings.select.cTextured, record.megapixels,
+                     w.effects[Effect::texturePressure] ? &pressure : nullptr);
+}
+
 void chooseFront(Workbench& w, const View& view, FrameRecord& record) {
     const SteadyClock::time_point start = SteadyClock::now();
     for (NodeId node : w.selection.front) w.inFront[node] = 0;
@@ -69,12 +91,13 @@ void chooseFront(Workbench& w, const View& view, FrameRecord& record) {
                             view,
                             w.settings.select,
                             w.effects,
-                            w.control.vTimeMs,
-                            w.control.overheadMs,
+                            timesOfFrame(w, view, record),
                             shareMs(w.control, w.settings.control),
                             w.settings.control.targetMs,
                             record.dtMs / 1000.0,
-                            w.frame};
+                            w.frame,
+                            w.measured};
+    record.fixedMs = input.time.fixedMs;
     selectFront(input, w.selectState, w.selection);
     for (NodeId node : w.selection.front) w.inFront[node] = 1;
     record.selectUs = 1000.0 * millisecondsSince(start);
@@ -92,17 +115,38 @@ void recordSelection(Workbench& w, const View& view, FrameRecord& record) {
     record.togglesDown = s.counters.togglesDown;
     record.pingPongs = s.counters.pingPongs;
     std::copy(std::begin(s.counters.boundBy), std::end(s.counters.boundBy), record.boundBy.begin());
-    record.moreDetailAvailable = record.boundBy[static_cast<std::size_t>(BoundBy::leaf)] < record.frontNodes;
+    const auto boundBy = [&](BoundBy reason) { return record.boundBy[static_cast<std::size_t>(reason)]; };
+    record.moreDetailAvailable = boundBy(BoundBy::leaf) + boundBy(BoundBy::view) < record.frontNodes;
+    record.refusedGroups = s.counters.refusedGroups;
+    record.skippedRoots = s.counters.skippedRoots;
+    for (const Reached& r : s.reached) {
+        if (!r.expanded) record.refusedNeedMs += r.needMs;
+    }
     const FrontError error = frontError(w.scene->hierarchy, s.front, view);
     record.errorPixelsMax = error.maxPixels;
     record.errorPixelsMean = error.meanPixels;
     record.overheadMs = w.control.overheadMs;
     record.vTimeMs = w.control.vTimeMs;
     record.shareMs = shareMs(w.control, w.settings.control);
-    record.estimateMs = estimateMs(w.control, s.frontCost);
+    record.estimateMs = s.estimateMs;
     const bool onlyRoots = record.levels[0] == record.frontNodes;
-    w.features.push({w.frame, s.frontCost, record.estimateMs, s.counters.refusedGroups, onlyRoots,
-                     w.effects[Effect::shareFeedback]});
+    FrameFeatures features;
+    features.frame = w.frame;
+    features.frontCost = s.frontCost;
+    features.fixedMs = record.fixedMs + s.pressureMs;
+    features.estimateMs = record.estimateMs;
+    features.triangles = s.triangles;
+    features.work = {1e-3 * static_cast<double>(s.texturedTriangles),
+                     1e-3 * static_cast<double>(s.triangles - s.texturedTriangles), static_cast<double>(s.front.size()),
+                     record.megapixels, 1.0};
+    features.refusedGroups = s.counters.refusedGroups;
+    features.onlyRoots = onlyRoots;
+    features.shareFeedback = w.effects[Effect::shareFeedback];
+    w.features.push(features);
+    for (std::size_t i = 0; i < kEffectCount; ++i)
+        record.effectWork.count[i] += s.counters.effectWork.count[i] + w.plan.groups.effectWork.count[i];
+    if (features.shareFeedback) ++record.effectWork[Effect::shareFeedback];
+    for (std::size_t i = 0; i < kEffectCount; ++i) w.effectWork.count[i] += record.effectWork.count[i];
 }
 
 void drawFront(Workbench& w, const View& view, FrameRecord& record) {
@@ -123,6 +167,7 @@ void feedBackTime(Workbench& w, std::uint64_t frame, double actualMs) {
     if (!features || record.frame != frame) return;  // too late to be of use
     record.actualMs = actualMs;
     feedBack(w.control, w.settings.control, *features, actualMs);
+    w.measured = {features->triangles, actualMs};
     record.infeasible = w.control.infeasible;
     w.history.push(record);
     if (w.onRecord) w.onRecord(record);
@@ -137,8 +182,11 @@ void measureFrame(Workbench& w) {
     }
     while (w.renderer && w.renderer->takeTime(time)) continue;  // model time counts, not the pictures'
     const Selection& s = w.selection;
-    const FrameWork work{s.texturedTriangles, s.triangles - s.texturedTriangles, s.front.size()};
-    feedBackTime(w, w.frame, modelFrameMs(w.settings.model, work, w.frame));
+    const ModelSettings& model = w.settings.model;
+    const FrameRecord& record = w.pending[w.frame % w.pending.size()];
+    const double megapixels = model.fillMsPerMegapixel > 0.0 ? coveredMegapixels(w.scene->hierarchy, s.front, w.view) : 0.0;
+    const FrameWork work = modelWork(model, w.scene->hierarchy, s.front, megapixels, record.uploadBytes, w.modelCounts);
+    feedBackTime(w, w.frame, modelFrameMs(model, work, w.frame, w.modelCounts));
 }
 
 }  // namespace
@@ -146,8 +194,8 @@ void measureFrame(Workbench& w) {
 void runFrame(Workbench& w, const FrameInput& input) {
     followSettings(w);
     FrameRecord& record = beginRecord(w, input);
-    const View view = makeView(input.camera, input.velocity, input.width, input.height);
-    decideFrameEffects(w, record);
+    const View& view = w.view = makeView(input.camera, input.velocity, input.width, input.height);
+    decideFrameEffects(w, input, record);
     takeLoads(w, record);
     planFrameLoads(w, view, record);
     chooseFront(w, view, record);

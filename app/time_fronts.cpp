@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <thread>
 
 #include "app/guarded_child.h"
 #include "base/clock.h"
+#include "select/coverage.h"
 
 namespace fb {
 namespace {
@@ -14,9 +16,12 @@ constexpr std::uint64_t kMostDraws = 1000;         // of nodes, in one picture
 constexpr std::uint64_t kTrianglesToTime = 60000;  // enough to rise above the overhead, about 5 ms on two cores
 constexpr int kLongestWaitMs = 500;                   // for the time of one picture
 
-FrontTimes countFront(const Hierarchy& hierarchy, const TimedFronts::Front& front) {
+FrontTimes countFront(const Hierarchy& hierarchy, const TimedFronts::Front& front, const View& view) {
     FrontTimes times;
     times.view = front.view;
+    std::vector<NodeId> roots(hierarchy.rootCount);
+    std::iota(roots.begin(), roots.end(), NodeId{0});
+    times.megapixels = coveredMegapixels(hierarchy, roots, view);
     for (NodeId node : front.nodes) {
         times.texturedTriangles += hierarchy.texturedTriangles[node];
         times.untexturedTriangles += hierarchy.untexturedTriangles[node];
@@ -88,7 +93,7 @@ Result<double> timeFront(Workbench& w, const View& view, std::span<const NodeId>
 Result<std::vector<FrontTimes>> timeFronts(Workbench& w, const TimedFronts& fronts, const TimingPlan& plan,
                                            const Progress& progress) {
     std::vector<FrontTimes> times;
-    for (const TimedFronts::Front& front : fronts.fronts) times.push_back(countFront(w.scene->hierarchy, front));
+    for (const TimedFronts::Front& front : fronts.fronts) times.push_back(countFront(w.scene->hierarchy, front, fronts.views[front.view]));
     countCosts(w, fronts, times);
     SteadyClock::time_point start = SteadyClock::now();
     for (int round = -1; round < plan.mostRounds; ++round) {

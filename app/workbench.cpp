@@ -26,12 +26,12 @@ namespace {
 
 AppliedSettings settingsToFollow(const Settings& settings) {
     return {settings.select.cTextured, settings.select.hystStart, settings.control.vTimeStartMs,
-            settings.control.overheadMs};
+            settings.control.overheadMs, settings.control.fillMsPerMegapixel};
 }
 
 // From what opening the scene measured and what the knobs say instead.
 void restartControl(Workbench& w) {
-    w.control = startControl(w.settings.control, w.control.calibratedMs, w.control.measuredOverheadMs);
+    w.control = startControl(w.settings.control, w.control.measured, w.settings.select.cTextured);
 }
 
 }  // namespace
@@ -70,6 +70,9 @@ void restartWalk(Workbench& w) {
     w.frontHash = 0;
     w.effectFrames = {};
     w.features = {};
+    w.measured = {};
+    w.effectWork = {};
+    w.modelCounts = {};
     w.residency.counters = {};
     w.residency.peakBytes = w.residency.residentBytes;
     w.loaderBefore = w.loader->counters();
@@ -88,7 +91,12 @@ void followSettings(Workbench& w) {
     }
     if (now.hystStart != w.applied.hystStart) w.selectState.reset(w.scene->hierarchy, now);
     const AppliedSettings follow = settingsToFollow(w.settings);
-    if (follow.vTimeStartMs != w.applied.vTimeStartMs || follow.overheadMs != w.applied.overheadMs) restartControl(w);
+    const AppliedSettings& before = w.applied;
+    if (follow.vTimeStartMs != before.vTimeStartMs || follow.overheadMs != before.overheadMs ||
+        follow.fillMsPerMegapixel != before.fillMsPerMegapixel) {
+        restartControl(w);
+    }
+    followCostModel(w.control, w.settings.control.costModel, now.cTextured);
     w.applied = follow;
 }
 

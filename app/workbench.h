@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "control/control.h"
+#include "control/model_device.h"
 #include "draw/renderer.h"
 #include "load/loader.h"
 #include "measure/history.h"
@@ -24,7 +25,7 @@ enum class ClockKind { real, model };
 
 // Settings whose change asks for more than to be read: as they were in the frame before.
 struct AppliedSettings {
-    double cTextured = 0.0, hystStart = 0.0, vTimeStartMs = 0.0, overheadMs = 0.0;
+    double cTextured = 0.0, hystStart = 0.0, vTimeStartMs = 0.0, overheadMs = 0.0, fillMsPerMegapixel = 0.0;
 };
 
 struct Workbench {
@@ -46,6 +47,10 @@ struct Workbench {
     Selection selection;
     ActiveEffects effects;
     ControlState control;
+    View view;                // of this frame
+    MeasuredFront measured;   // the newest whose time is known
+    std::vector<NodeId> roots;  // scratch
+    ModelCounts modelCounts;
     FeatureRing features;
 
     std::uint64_t frame = 0;      // counts up by one a frame; the first is 1
@@ -54,6 +59,7 @@ struct Workbench {
     std::array<FrameRecord, 16> pending;  // by frame number: waiting for their time
     History history;
     std::array<std::uint64_t, kEffectCount> effectFrames{};  // frames in which each effect was active
+    EffectWork effectWork;                                   // over all frames
     double lastUiMs = 0.0;
     LoaderCounters loaderBefore;     // when the walk began
     AppliedSettings applied;

@@ -3,12 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.h"
+
 namespace fb {
 namespace {
 
 constexpr double kVTimeRange = 8.0;     // v_time stays within this factor of its calibrated value
 constexpr double kSmallestScale = 0.1;  // of T - O
 constexpr double kSmallestSpan = 0.05;  // T - O counts as at least this part of T
+// Of the residual, in parts of T; 1.2533 is the deviation of a normal error over its mean size.
+constexpr double kFirstResidual = 0.03, kLeastResidual = 0.005, kMostResidual = 0.1;
+constexpr double kResidualGain = 0.02, kDeviationOfMean = 1.2533, kOutlierResiduals = 4.0;
+// Of the prior where nothing has measured them: a node and a megapixel against a thousand triangles.
+constexpr double kNodePrior = 0.05, kFillPrior = 4.0;
 
 double median3(double a, double b, double c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -45,6 +52,25 @@ void feedBackShare(ControlState& state, const ControlSettings& settings, const F
     state.shareScale = std::clamp(state.shareScale, kSmallestScale, settings.shareLimit);
 }
 
+// The device's time now over what it was calibrated to take.
+double speedNow(const ControlState& state) {
+    return state.model == CostModel::leastSquares ? state.fit.factor : state.vTimeMs / state.calibratedMs;
+}
+
+WorkVector priorOf(const ControlState& state, double cTextured) {
+    const double thousand = 1000.0 * state.vTimeMs;
+    const double fill = state.fillMsPerMegapixel > 0.0 ? state.fillMsPerMegapixel : kFillPrior * thousand;
+    return {thousand * cTextured, thousand * (1.0 - cTextured), kNodePrior * thousand, fill,
+            std::max(state.overheadMs, kNodePrior * thousand)};
+}
+
+void feedBackResidual(ControlState& state, double targetMs, double errorMs) {
+    const double before = state.residualMs > 0.0 ? state.residualMs : kFirstResidual * targetMs;
+    const double size = kDeviationOfMean * std::min(std::abs(errorMs), kOutlierResiduals * before);
+    state.residualMs =
+        std::clamp(before + kResidualGain * (size - before), kLeastResidual * targetMs, kMostResidual * targetMs);
+}
+
 }  // namespace
 
 double shareMs(const ControlState& state, const ControlSettings& settings) {
@@ -52,46 +78,77 @@ double shareMs(const ControlState& state, const ControlSettings& settings) {
            std::max(settings.targetMs - state.overheadMs, kSmallestSpan * settings.targetMs);
 }
 
-ControlState startControl(double vTimeMs, double overheadMs) {
+ControlState startControl(const ControlSettings& settings, const MeasuredConstants& measured, double cTextured) {
     ControlState state;
-    state.vTimeMs = state.calibratedMs = vTimeMs;
-    state.overheadMs = state.measuredOverheadMs = overheadMs;
+    state.measured = measured;
+    state.vTimeMs = state.calibratedMs = measured.vTimeMs;
+    state.overheadMs = settings.overheadMs > 0.0 ? settings.overheadMs : measured.overheadMs;
+    state.fillMsPerMegapixel =
+        settings.fillMsPerMegapixel > 0.0 ? settings.fillMsPerMegapixel : measured.fillMsPerMegapixel;
+    if (settings.vTimeStartMs > 0.0) {
+        state.vTimeMs = std::clamp(settings.vTimeStartMs, measured.vTimeMs / kVTimeRange, measured.vTimeMs * kVTimeRange);
+    }
+    followCostModel(state, settings.costModel, cTextured);
+    state.slowSpeed = speedNow(state);
     return state;
 }
 
-ControlState startControl(const ControlSettings& settings, double measuredVTimeMs, double measuredOverheadMs) {
-    ControlState state = startControl(measuredVTimeMs, measuredOverheadMs);
-    if (settings.vTimeStartMs > 0.0) {
-        state.vTimeMs = std::clamp(settings.vTimeStartMs, measuredVTimeMs / kVTimeRange, measuredVTimeMs * kVTimeRange);
+TimeModel timeModel(const ControlState& state, const ControlSettings& settings, double cTextured, double megapixels,
+                    const TexturePressure* pressure) {
+    TimeModel model = timesByCost(state.vTimeMs, cTextured, state.overheadMs + state.fillMsPerMegapixel * megapixels);
+    if (state.model == CostModel::leastSquares) {
+        const WorkVector& theta = state.fit.theta;
+        const double m = state.fit.factor;
+        model.texturedMs = m * theta[0] / 1000.0;
+        model.untexturedMs = m * theta[1] / 1000.0;
+        model.nodeMs = m * theta[2];
+        model.leastMs = 0.0;
+        model.fixedMs = m * (theta[3] * megapixels + theta[4]);
     }
-    if (settings.overheadMs > 0.0) state.overheadMs = settings.overheadMs;
-    return state;
+    if (pressure != nullptr && pressure->residentBytes > pressure->budgetBytes) {
+        const double missing = 1.0 - static_cast<double>(pressure->budgetBytes) / static_cast<double>(pressure->residentBytes);
+        model.textureMsPerByte = settings.texturePressure / kBytesPerMiB * missing;
+    }
+    model.slowRatio = state.slowSpeed / speedNow(state);
+    model.residualMs = state.residualMs > 0.0 ? state.residualMs : kFirstResidual * settings.targetMs;
+    return model;
 }
 
 void rescaleCost(ControlState& state, double ratio) {
     if (!(ratio > 0.0) || !std::isfinite(ratio)) return;
     state.vTimeMs /= ratio;
     state.calibratedMs /= ratio;
+    state.measured.vTimeMs /= ratio;
     for (double& marginalMs : state.recentMarginal) marginalMs /= ratio;
 }
 
-double estimateMs(const ControlState& state, double frontCost) {
-    return state.overheadMs + state.vTimeMs * frontCost;
+void followCostModel(ControlState& state, CostModel wanted, double cTextured) {
+    if (wanted == CostModel::leastSquares && (state.model != wanted || state.fit.measured == 0))
+        state.fit = startCostFit(priorOf(state, cTextured));
+    if (state.model == wanted) return;
+    state.model = wanted;
+    state.slowSpeed = speedNow(state);
+}
+
+void passTime(ControlState& state, const ControlSettings& settings, double dtSeconds) {
+    state.slowSpeed += (speedNow(state) - state.slowSpeed) * dtSeconds / (settings.slowSeconds + dtSeconds);
 }
 
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features,
               double actualMs) {
     if (!std::isfinite(actualMs) || actualMs < 0.0) return;
     state.infeasible = features.onlyRoots && features.estimateMs > settings.targetMs;
-    if (!(features.frontCost > 0.0)) return;  // empty front: neither loop moves (case 8)
+    if (!(features.frontCost > 0.0)) return;  // empty front: no loop moves (case 8)
+    feedBackResidual(state, settings.targetMs, actualMs - features.estimateMs);
     double steadyMs = actualMs;
-    if (actualMs > state.overheadMs) {  // otherwise there is no marginal time in it (case 10)
-        const double measured = (actualMs - state.overheadMs) / features.frontCost;
+    if (actualMs > features.fixedMs) {  // otherwise there is no marginal time in it (case 10)
+        const double measured = (actualMs - features.fixedMs) / features.frontCost;
         const double gated = gatedMarginal(state, settings.medianGate, measured);
         feedBackVTime(state, settings, gated);
         // What this front takes when nothing stalls: a stall must not move the share time either (case 9).
-        if (gated != measured) steadyMs = state.overheadMs + gated * features.frontCost;
+        if (gated != measured) steadyMs = features.fixedMs + gated * features.frontCost;
     }
+    if (state.model == CostModel::leastSquares && actualMs > 0.0) learn(state.fit, features.work, actualMs);
     if (features.shareFeedback) feedBackShare(state, settings, features, steadyMs);
 }
 

@@ -93,6 +93,13 @@ double fittedCTextured(std::span<const FrontTimes> fronts, const Rounds& rounds)
     return untextured > 0.0 && textured > 0.0 ? textured / (textured + untextured) : std::nan("");
 }
 
+double vTimeOf(std::span<const FrontTimes> fronts, const Rounds& rounds) {
+    const double ms = slope(
+        fronts, [](const FrontTimes& f) { return f.cost; },
+        [&](const FrontTimes& f) { return quickest(f.ms, rounds); });
+    return ms > 0.0 ? ms : std::nan("");
+}
+
 }  // namespace
 
 std::optional<Estimate> fitOverhead(std::span<const FrontTimes> fronts) {
@@ -103,11 +110,22 @@ std::optional<Estimate> fitOverhead(std::span<const FrontTimes> fronts) {
 
 std::optional<Estimate> fitVTime(std::span<const FrontTimes> fronts) {
     if (fronts.empty()) return std::nullopt;
-    return estimate(fronts[0].ms.size(), [&](const Rounds& rounds) {
-        const double ms = slope(
-            fronts, [](const FrontTimes& f) { return f.cost; },
-            [&](const FrontTimes& f) { return quickest(f.ms, rounds); });
-        return ms > 0.0 ? ms : std::nan("");
+    return estimate(fronts[0].ms.size(), [&](const Rounds& rounds) { return vTimeOf(fronts, rounds); });
+}
+
+std::optional<Estimate> fitFill(std::span<const FrontTimes> fronts) {
+    const auto empty = std::ranges::find_if(fronts, [](const FrontTimes& f) { return !drawsSomething(f); });
+    if (empty == fronts.end()) return std::nullopt;
+    return estimate(empty->ms.size(), [&](const Rounds& rounds) {
+        const double overheadMs = quickest(empty->ms, rounds);
+        const double vTimeMs = vTimeOf(fronts, rounds);
+        double xy = 0.0, xx = 0.0;
+        for (const FrontTimes& front : fronts) {
+            if (!drawsSomething(front)) continue;
+            xy += front.megapixels * (quickest(front.ms, rounds) - overheadMs - vTimeMs * front.cost);
+            xx += front.megapixels * front.megapixels;
+        }
+        return xx > 0.0 && xy >= 0.0 ? xy / xx : std::nan("");
     });
 }
 

@@ -18,6 +18,7 @@ struct FrontTimes {
     std::uint32_t view = 0;  // fronts of one view are held against each other
     std::uint64_t texturedTriangles = 0, untexturedTriangles = 0;
     double cost = 0.0;            // sum of nodeCost
+    double megapixels = 0.0;      // of the view, in front of the roots
     std::vector<double> ms;       // as the scene is drawn
     std::vector<double> plainMs;  // the same triangles without their textures, in turn with `ms`; may be empty
 };
@@ -32,6 +33,9 @@ struct Estimate {
 // v_time in ms per unit of cost: slope of the times over cost, with a constant of its own for each view. None:
 // no view has fronts of different cost, or time does not rise with it.
 [[nodiscard]] std::optional<Estimate> fitVTime(std::span<const FrontTimes> fronts);
+// Time of filling a megapixel, from what fronts of a view take beside O and their cost: least squares through 0 over the
+// views. None: no v_time or no O can be fitted, no view covers anything, or it is below 0.
+[[nodiscard]] std::optional<Estimate> fitFill(std::span<const FrontTimes> fronts);
 // c_textured = t / (t + u), t and u the times that one textured and one untextured triangle add. u is the slope of
 // plainMs over all triangles, t - u that of ms - plainMs over the textured ones. None: a slope cannot be fitted, or
 // one of the two times is not above 0.

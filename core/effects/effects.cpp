@@ -8,6 +8,7 @@ namespace {
 
 // Below this the normals of a node's triangles point in all directions and their average says nothing.
 constexpr double kCoherentNormals = 0.5;
+constexpr double kNoticeableFill = 0.02;
 constexpr double kStandingStill = 1e-3;  // m/s
 
 std::string withNumber(const char* format, double value) {
@@ -51,6 +52,30 @@ constexpr std::array<EffectRow, kEffectCount> kTable = {{
      [](const SceneFacts&, const FrameFacts& f) { return f.policyUsesShareTime; },
      [](const SceneFacts&, const FrameFacts&, bool on) -> std::string {
          return on ? "the policy shares time out from the roots" : "the policy has no share time";
+     }},
+    {Effect::redistribution, "redistribution", [](const EffectSettings& s) { return s.redistribution; },
+     [](const SceneFacts&, const FrameFacts& f) { return f.policyUsesShareTime && f.slicesUnused; },
+     [](const SceneFacts&, const FrameFacts& f, bool on) -> std::string {
+         if (on) return "some slices are larger than all that is below them needs, and others are too small";
+         return f.policyUsesShareTime ? "no slice is left unused while another is too small"
+                                      : "the policy has no share time";
+     }},
+    {Effect::fillRate, "fill_rate", [](const EffectSettings& s) { return s.fillRate; },
+     [](const SceneFacts&, const FrameFacts& f) { return f.fillShare >= kNoticeableFill; },
+     [](const SceneFacts&, const FrameFacts& f, bool on) -> std::string {
+         return withNumber(on ? "filling the picture takes %.1f %% of the target"
+                              : "filling the picture takes %.1f %% of the target: less than 2 %%",
+                           100.0 * f.fillShare);
+     }},
+    {Effect::texturePressure, "texture_pressure", [](const EffectSettings& s) { return s.texturePressure; },
+     [](const SceneFacts&, const FrameFacts& f) {
+         return f.textureBudgetBytes > 0 && f.residentTextureBytes > f.textureBudgetBytes;
+     },
+     [](const SceneFacts&, const FrameFacts& f, bool on) -> std::string {
+         if (f.textureBudgetBytes == 0) return "textures have no budget of their own";
+         return withNumber(on ? "textures in memory are %.2f times their budget: more than 1"
+                              : "textures in memory are %.2f times their budget",
+                           static_cast<double>(f.residentTextureBytes) / static_cast<double>(f.textureBudgetBytes));
      }},
 }};
 

@@ -13,8 +13,18 @@
 
 namespace fb {
 
-enum class Effect : std::uint8_t { texturing, lighting, foreshortening, velocityLead, frustumFalloff, shareFeedback };
-inline constexpr int kEffectCount = 6;
+enum class Effect : std::uint8_t {
+    texturing,
+    lighting,
+    foreshortening,
+    velocityLead,
+    frustumFalloff,
+    shareFeedback,
+    redistribution,
+    fillRate,
+    texturePressure
+};
+inline constexpr int kEffectCount = 9;
 
 struct SceneFacts {
     std::uint64_t texturedTriangles = 0, untexturedTriangles = 0;
@@ -26,12 +36,22 @@ struct FrameFacts {
     double speedMetresPerSecond = 0.0;
     bool everythingLoaded = false;
     bool policyUsesShareTime = true;
+    bool slicesUnused = false;  // in the frame before, leaves had more time than they need and others too little
+    double fillShare = 0.0;     // time of filling the whole picture as a part of the target
+    std::uint64_t residentTextureBytes = 0, textureBudgetBytes = 0;  // no budget: 0
 };
 
 struct ActiveEffects {
     std::array<bool, kEffectCount> on{};
     [[nodiscard]] bool operator[](Effect e) const { return on[static_cast<std::size_t>(e)]; }
     bool& operator[](Effect e) { return on[static_cast<std::size_t>(e)]; }
+};
+
+// How often each effect's own arithmetic ran: 0 for what is off.
+struct EffectWork {
+    std::array<std::uint64_t, kEffectCount> count{};
+    [[nodiscard]] std::uint64_t operator[](Effect e) const { return count[static_cast<std::size_t>(e)]; }
+    std::uint64_t& operator[](Effect e) { return count[static_cast<std::size_t>(e)]; }
 };
 
 struct EffectDecision {

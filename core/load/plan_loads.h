@@ -46,6 +46,10 @@ struct PlanInput {
 };
 
 // maxMemory in bytes.
+// 0: textures have no budget of their own.
+[[nodiscard]] inline std::uint64_t textureBudgetBytes(const LoadSettings& load) {
+    return static_cast<std::uint64_t>(load.textureBudgetMiB * kBytesPerMiB);
+}
 [[nodiscard]] inline std::uint64_t budgetBytes(const LoadSettings& load) {
     return static_cast<std::uint64_t>(load.budgetMiB * kBytesPerMiB);
 }

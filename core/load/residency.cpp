@@ -40,7 +40,7 @@ void Residency::reset(const Hierarchy& hierarchy) {
     position.assign(nodes, 0);
     retryAtSeconds.assign(nodes, 0.0);
     failures.assign(nodes, 0);
-    residentBytes = reservedBytes = peakBytes = 0;
+    residentBytes = residentTextureBytes = reservedBytes = peakBytes = 0;
     counters = {};
 }
 
@@ -58,6 +58,7 @@ void Residency::setResident(const Hierarchy& hierarchy, NodeId node) {
     failures[node] = 0;
     addTo(resident, position, node);
     residentBytes += hierarchy.residentBytes[node];
+    residentTextureBytes += hierarchy.textureBytes(node);
     if (above != kNoNode) ++loadedChildren[above];
     peakBytes = std::max(peakBytes, totalBytes());
 }
@@ -67,6 +68,7 @@ void Residency::setUnloaded(const Hierarchy& hierarchy, NodeId node) {
         FB_CHECK(loadedChildren[node] == 0u);
         removeFrom(resident, position, node);
         residentBytes -= hierarchy.residentBytes[node];
+        residentTextureBytes -= hierarchy.textureBytes(node);
         loaded[node] = 0;
         if (hierarchy.parent[node] != kNoNode) --loadedChildren[hierarchy.parent[node]];
     } else {

@@ -11,12 +11,11 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "base/units.h"
 #include "scenefile/hierarchy.h"
 #include "scenefile/node_data.h"
 
 namespace fb {
-
-inline constexpr double kBytesPerMiB = 1048576.0;
 
 enum class NodeState : std::uint8_t { unloaded, wanted, ready, resident, failedTemporarily, failed };
 
@@ -61,6 +60,7 @@ struct Residency {
     std::vector<double> retryAtSeconds;   // failedTemporarily: not before this time
     std::vector<std::uint8_t> failures;   // since the node was last resident
     std::uint64_t residentBytes = 0;
+    std::uint64_t residentTextureBytes = 0;  // of them: textures with mip levels
     std::uint64_t reservedBytes = 0;  // of inFlight: what they will take when resident
     std::uint64_t peakBytes = 0;      // of residentBytes + reservedBytes
     LoadCounters counters;

@@ -57,6 +57,7 @@ void gatherSiblingGroups(const PlanInput& input, Residency& residency, SiblingGr
     const Hierarchy& hierarchy = input.hierarchy;
     into.groupOf.resize(hierarchy.size());
     into.groups.clear();
+    into.effectWork = {};
     listParents(hierarchy, residency, into.parents);
     for (const NodeId parent : into.parents) {
         SiblingGroup group;
@@ -81,7 +82,7 @@ void gatherSiblingGroups(const PlanInput& input, Residency& residency, SiblingGr
         if (!group.hopeless && (reachable || group.held.members > 0)) {
             for (NodeId node = first; node < end; ++node) {
                 const double seen =
-                    lookAtNode(hierarchy, node, input.view, input.select, input.effects).priority;
+                    lookAtNode(hierarchy, node, input.view, input.select, input.effects, into.effectWork).priority;
                 group.priority = std::max(group.priority, seen);
             }
             group.priority = std::min(group.priority, cap);

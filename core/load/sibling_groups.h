@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "effects/effects.h"
 
 namespace fb {
 
@@ -56,6 +57,7 @@ struct SiblingGroups {
     std::vector<SiblingGroup> groups;    // by level from the top
     std::vector<std::uint32_t> groupOf;  // by node, valid for this frame's parents: the group of its children
     std::vector<NodeId> parents;         // scratch
+    EffectWork effectWork;               // of this plan
 };
 
 // Also clears memoryRefused of all members; planLoads sets it anew.

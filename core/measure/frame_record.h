@@ -20,10 +20,15 @@ struct FrameRecord {
     double speedMetresPerSecond = 0.0;
     double targetMs = 0.0, actualMs = 0.0, estimateMs = 0.0, overheadMs = 0.0;
     double vTimeMs = 0.0, shareMs = 0.0;
+    double fixedMs = 0.0;     // of the estimate: what no front changes
+    double megapixels = 0.0;  // of the picture in front of the roots; 0 where fill is not counted
     std::uint32_t frontNodes = 0;
     std::array<std::uint32_t, kMaxLevels> levels{};  // front nodes by level
     std::uint64_t triangles = 0;
     std::uint32_t visited = 0, togglesUp = 0, togglesDown = 0, pingPongs = 0;
+    std::uint32_t refusedGroups = 0, skippedRoots = 0;
+    double refusedNeedMs = 0.0;  // what refining all that was refused would take
+    EffectWork effectWork;
     double selectUs = 0.0;
     std::uint64_t uploadBytes = 0, residentBytes = 0, reservedBytes = 0, budgetBytes = 0;
     std::uint32_t pendingLoads = 0, evictions = 0;

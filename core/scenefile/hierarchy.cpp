@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "scenefile/node_data.h"
+
 namespace fb {
 
 std::uint8_t Hierarchy::maxLevel() const {
     return level.empty() ? std::uint8_t{0} : *std::ranges::max_element(level);
 }
+
+std::uint64_t Hierarchy::textureBytes(NodeId n) const { return mippedBytes(textureWidth[n], textureHeight[n]); }
 
 void Hierarchy::resize(std::size_t nodes) {
     parent.resize(nodes, kNoNode);

@@ -60,6 +60,8 @@ struct Hierarchy {
     [[nodiscard]] bool isLeaf(NodeId n) const { return childCount[n] == 0; }
     [[nodiscard]] bool isTerrain(NodeId n) const { return kinds[block[n]] == BlockKind::terrain; }
     [[nodiscard]] std::uint32_t triangles(NodeId n) const { return texturedTriangles[n] + untexturedTriangles[n]; }
+    // As uploaded, with mip levels.
+    [[nodiscard]] std::uint64_t textureBytes(NodeId n) const;
     [[nodiscard]] NodeId nextSibling(NodeId n) const {
         return n + 1 < size() && parent[n + 1] == parent[n] && parent[n] != kNoNode ? n + 1 : kNoNode;
     }

@@ -18,24 +18,31 @@ double foreshortening(const Hierarchy& hierarchy, NodeId node, const View& view,
 }  // namespace
 
 NodeView lookAtNode(const Hierarchy& hierarchy, NodeId node, const View& view, const SelectSettings& settings,
-                    const ActiveEffects& effects) {
+                    const ActiveEffects& effects, EffectWork& work) {
     const Box3f& box = hierarchy.bounds[node];
     NodeView seen;
     const double outside = outsideDistance(view, box);
     seen.visible = outside <= 0.0;
 
     glm::dvec3 eye = view.camera.eye;
-    if (effects[Effect::velocityLead]) eye += settings.lookAhead * view.velocity;
+    if (effects[Effect::velocityLead]) {
+        ++work[Effect::velocityLead];
+        eye += settings.lookAhead * view.velocity;
+    }
     const Box3d exact{glm::dvec3(box.min), glm::dvec3(box.max)};
     seen.distance = std::max(settings.minDistance, exact.distance(eye));
 
     double frustumVisibility = seen.visible ? 1.0 : 0.0;
     if (!seen.visible && effects[Effect::frustumFalloff]) {
+        ++work[Effect::frustumFalloff];
         frustumVisibility = std::max(0.0, 1.0 - outside / settings.frustumFalloff);
     }
     const double visibility = 1.0 + settings.cVis * frustumVisibility;
-    const double fore =
-        effects[Effect::foreshortening] ? foreshortening(hierarchy, node, view, settings.cFore) : 1.0;
+    double fore = 1.0;
+    if (effects[Effect::foreshortening]) {
+        ++work[Effect::foreshortening];
+        fore = foreshortening(hierarchy, node, view, settings.cFore);
+    }
     const double cost = nodeCost(hierarchy, node, settings.cTextured);
     seen.priority =
         hierarchy.staticBenefit[node] * visibility * fore / (cost * seen.distance * seen.distance);

@@ -17,6 +17,6 @@ struct NodeView {
 };
 
 [[nodiscard]] NodeView lookAtNode(const Hierarchy& hierarchy, NodeId node, const View& view,
-                                  const SelectSettings& settings, const ActiveEffects& effects);
+                                  const SelectSettings& settings, const ActiveEffects& effects, EffectWork& work);
 
 }  // namespace fb

@@ -13,24 +13,36 @@ namespace {
 constexpr std::uint64_t kPingPongFrames = 35;
 constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
-constexpr std::array<Policy, 4> kPolicies = {{
+constexpr std::array<Policy, kPolicyCount> kPolicies = {{
     {PolicyId::lakhia, "lakhia", "Time slices with hysteresis counters, as the thesis describes them.", true,
      selectLakhia},
     {PolicyId::lakhiaNaive, "lakhia-naive", "Time slices without hysteresis: refines while the children fit.", true,
      selectLakhiaNaive},
+    {PolicyId::funkhouser, "funkhouser", "All representations sorted by value; objects that do not fit are skipped.",
+     false, selectFunkhouser},
+    {PolicyId::funkhouserIncremental, "funkhouser-incremental",
+     "Exchanges of the best refinement for the worst, starting from what was drawn.", false,
+     selectFunkhouserIncremental},
+    {PolicyId::macielShirley, "maciel-shirley", "Best first; each switch waits until it was wished for often enough.",
+     false, selectMacielShirley},
+    {PolicyId::erikson, "erikson", "Largest error first, up to the triangles that the last frame's time allows.", false,
+     selectErikson},
+    {PolicyId::greedy, "greedy", "Best gain for its time first, whatever fits (Mason and Blake).", false, selectGreedy},
+    {PolicyId::screenError, "screen-error", "Refines above an error in pixels, whatever it costs: as 3D Tiles viewers do.",
+     false, selectScreenError},
     {PolicyId::coarse, "coarse", "The roots alone: the least that can be drawn.", false, selectCoarse},
     {PolicyId::full, "full", "Every leaf in view, whatever it costs: the reference.", false, selectFull},
+    {PolicyId::frontbench, "frontbench", "Our own: keeps what is drawn, and trades only for clearly more.", false,
+     selectFrontbench},
 }};
 
 // A node whose children are all out of view is drawn in their place; that is no switch (algorithms 2 item 5).
-bool standsInForUnseenChildren(const Hierarchy& hierarchy, const Reached& r) {
-    return !r.expanded && r.boundBy == BoundBy::leaf && !hierarchy.isLeaf(r.node);
-}
+bool standsInForUnseenChildren(const Reached& r) { return !r.expanded && r.boundBy == BoundBy::view; }
 
 void countSwitch(const SelectInput& input, SelectState& state, const Reached& r, SelectCounters& counters) {
     const NodeId n = r.node;
     const bool reachedBefore = state.reachedFrame[n] + 1 == input.frame && state.reachedFrame[n] != kNever;
-    if (standsInForUnseenChildren(input.hierarchy, r)) {
+    if (standsInForUnseenChildren(r)) {
         // What was drawn before stays on record; a node that came into view ahead of its children has no record yet.
         if (reachedBefore) state.reachedFrame[n] = input.frame;
         return;
@@ -51,7 +63,7 @@ void countSwitch(const SelectInput& input, SelectState& state, const Reached& r,
 
 std::string_view boundByName(BoundBy reason) {
     static constexpr std::array<std::string_view, kBoundByCount> names = {"leaf",       "time",   "load",
-                                                                          "hysteresis", "memory", "policy"};
+                                                                          "hysteresis", "memory", "policy", "view"};
     return names[static_cast<std::size_t>(reason)];
 }
 
@@ -62,13 +74,31 @@ void SelectState::reset(const Hierarchy& hierarchy, const SelectSettings& settin
     expanded.assign(nodes, 0);
     toggledFrame.assign(nodes, kNever);
     toggledUp.assign(nodes, 0);
+    refined.assign(nodes, 0);
+    waited.assign(nodes, 0.0f);
+    seenFrame.assign(nodes, kNever);
+    wishedFrame.assign(nodes, kNever);
+    leaves = {};
+    price = 0.0;
+    policy = settings.policy;
+}
+
+void SelectState::takeOver(PolicyId next, std::uint64_t frame) {
+    policy = next;
+    price = 0.0;
+    std::ranges::fill(waited, 0.0f);
+    for (std::size_t n = 0; n < refined.size(); ++n) {
+        const bool reachedBefore = reachedFrame[n] + 1 == frame && reachedFrame[n] != kNever;
+        refined[n] = reachedBefore ? expanded[n] : 0;
+        seenFrame[n] = reachedBefore ? reachedFrame[n] : kNever;
+    }
 }
 
 void Selection::clear() {
     reached.clear();
     front.clear();
     counters = {};
-    frontCost = 0.0;
+    frontCost = estimateMs = pressureMs = 0.0;
     triangles = texturedTriangles = 0;
 }
 
@@ -85,6 +115,8 @@ void selectFront(const SelectInput& input, SelectState& state, Selection& select
     FB_CHECK(input.memoryRefused.size() == input.hierarchy.size());
     FB_CHECK(state.expanded.size() == input.hierarchy.size());
     selection.clear();
+    if (state.policy != input.settings.policy) state.takeOver(input.settings.policy, input.frame);
+    selection.estimateMs = input.time.fixedMs;
     policyOf(input.settings.policy).select(input, state, selection);
     for (const Reached& r : selection.reached) {
         countSwitch(input, state, r, selection.counters);
@@ -92,6 +124,11 @@ void selectFront(const SelectInput& input, SelectState& state, Selection& select
         selection.front.push_back(r.node);
         ++selection.counters.boundBy[static_cast<std::size_t>(r.boundBy)];
         selection.frontCost += nodeCost(input.hierarchy, r.node, input.settings.cTextured);
+        selection.estimateMs += nodeTimeMs(input.time, input.hierarchy, r.node);
+        if (input.effects[Effect::texturePressure]) {
+            ++selection.counters.effectWork[Effect::texturePressure];
+            selection.pressureMs += input.time.textureMsPerByte * static_cast<double>(input.hierarchy.textureBytes(r.node));
+        }
         selection.triangles += input.hierarchy.triangles(r.node);
         selection.texturedTriangles += input.hierarchy.texturedTriangles[r.node];
     }

@@ -7,10 +7,10 @@ namespace fb {
 
 void selectFull(const SelectInput& input, SelectState& state, Selection& selection) {
     gatherGroup(input, kNoNode, state, selection);
-    descendBySlices(1.0, state, selection, [&](NodeId n, double) -> Reached {
+    descendBySlices(input, 1.0, state, selection, [&](NodeId n, double) -> Reached {
         if (input.hierarchy.isLeaf(n)) return {n, false, BoundBy::leaf};
         gatherGroup(input, n, state, selection);
-        if (state.group.empty()) return {n, false, BoundBy::leaf};  // nothing finer is in view
+        if (state.group.empty()) return {n, false, BoundBy::view};
         const GroupMemory memory = groupMemory(input, n, state);
         if (memory != GroupMemory::loaded) return {n, false, boundByMemory(memory)};
         return {n, true, BoundBy::leaf};

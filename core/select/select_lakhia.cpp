@@ -29,12 +29,13 @@ double movedCounter(const SelectInput& input, double h, double sliceMs, double n
 
 GroupVote moveCounters(const SelectInput& input, double shareMs, SelectState& state, SelectCounters& counters) {
     GroupVote vote;
-    const double scale = sliceScale(state, shareMs);
+    state.slices.clear();
+    appendSlices(input, shareMs, state, counters, state.slices);
     for (std::size_t i = 0; i < state.group.size(); ++i) {
         const NodeId n = state.group[i];
         const double needMs = timeNeeded(input, n);
         double& h = state.hysteresis[n];
-        h = movedCounter(input, h, scale * state.priorities[i], needMs, counters);
+        h = movedCounter(input, h, state.slices[i], needMs, counters);
         vote.sumOfCounters += std::trunc(h / input.settings.hystSwitch);
         vote.needMs += needMs;
     }
@@ -50,16 +51,16 @@ bool votesForChildren(const SelectInput& input, const SelectState& state, NodeId
 Reached decide(const SelectInput& input, NodeId n, double shareMs, SelectState& state, Selection& selection) {
     if (input.hierarchy.isLeaf(n)) return {n, false, BoundBy::leaf};
     gatherGroup(input, n, state, selection);
-    if (state.group.empty()) return {n, false, BoundBy::leaf};  // nothing finer is in view
+    if (state.group.empty()) return {n, false, BoundBy::view};
     // Counters move whether or not the group is loaded: loading stays independent of hysteresis.
     const GroupVote vote = moveCounters(input, shareMs, state, selection.counters);
     const GroupMemory memory = groupMemory(input, n, state);
     if (!votesForChildren(input, state, n, vote)) {
         if (memory == GroupMemory::loaded) ++selection.counters.refusedGroups;
-        return {n, false, vote.needMs > shareMs ? BoundBy::time : BoundBy::hysteresis};
+        return {n, false, vote.needMs > shareMs ? BoundBy::time : BoundBy::hysteresis, vote.needMs, shareMs};
     }
-    if (memory != GroupMemory::loaded) return {n, false, boundByMemory(memory)};
-    return {n, true, BoundBy::leaf};
+    if (memory != GroupMemory::loaded) return {n, false, boundByMemory(memory), vote.needMs, shareMs};
+    return {n, true, BoundBy::leaf, vote.needMs, shareMs};
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ void selectLakhia(const SelectInput& input, SelectState& state, Selection& selec
     if (state.group.empty()) return;  // the sky: no counter moves
     // Level 0 is drawn whatever its counters say (algorithms 2 item 6); they move for the panels.
     moveCounters(input, rootShare(input), state, selection.counters);
-    descendBySlices(rootShare(input), state, selection,
+    descendBySlices(input, rootShare(input), state, selection,
                     [&](NodeId n, double sliceMs) { return decide(input, n, sliceMs, state, selection); });
 }
 

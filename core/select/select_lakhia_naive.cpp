@@ -9,23 +9,23 @@ namespace {
 Reached decideNaively(const SelectInput& input, NodeId n, double shareMs, SelectState& state, Selection& selection) {
     if (input.hierarchy.isLeaf(n)) return {n, false, BoundBy::leaf};
     gatherGroup(input, n, state, selection);
-    if (state.group.empty()) return {n, false, BoundBy::leaf};  // nothing finer is in view
+    if (state.group.empty()) return {n, false, BoundBy::view};
     double needMs = 0.0;
     for (NodeId child : state.group) needMs += timeNeeded(input, child);
     const GroupMemory memory = groupMemory(input, n, state);
     if (!(shareMs > needMs)) {
         if (memory == GroupMemory::loaded) ++selection.counters.refusedGroups;
-        return {n, false, BoundBy::time};
+        return {n, false, BoundBy::time, needMs, shareMs};
     }
-    if (memory != GroupMemory::loaded) return {n, false, boundByMemory(memory)};
-    return {n, true, BoundBy::leaf};
+    if (memory != GroupMemory::loaded) return {n, false, boundByMemory(memory), needMs, shareMs};
+    return {n, true, BoundBy::leaf, needMs, shareMs};
 }
 
 }  // namespace
 
 void selectLakhiaNaive(const SelectInput& input, SelectState& state, Selection& selection) {
     gatherGroup(input, kNoNode, state, selection);
-    descendBySlices(rootShare(input), state, selection,
+    descendBySlices(input, rootShare(input), state, selection,
                     [&](NodeId n, double sliceMs) { return decideNaively(input, n, sliceMs, state, selection); });
 }
 

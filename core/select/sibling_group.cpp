@@ -13,7 +13,7 @@ void gatherGroup(const SelectInput& input, NodeId parent, SelectState& state, Se
     const NodeId first = parent == kNoNode ? 0 : h.firstChild[parent];
     const std::uint32_t count = parent == kNoNode ? h.rootCount : h.childCount[parent];
     for (NodeId n = first; n < first + count; ++n) {
-        const NodeView seen = lookAtNode(h, n, input.view, input.settings, input.effects);
+        const NodeView seen = lookAtNode(h, n, input.view, input.settings, input.effects, selection.counters.effectWork);
         ++selection.counters.visited;
         if (!seen.visible) continue;
         selection.counters.repairedPriorities += seen.repaired ? 1 : 0;
@@ -37,17 +37,6 @@ GroupMemory groupMemory(const SelectInput& input, NodeId parent, const SelectSta
     }
     if (loaded) return GroupMemory::loaded;
     return refused ? GroupMemory::refused : GroupMemory::missing;
-}
-
-double sliceScale(const SelectState& state, double shareMs) {
-    double sum = 0.0;
-    for (double priority : state.priorities) sum += priority;
-    return state.priorities.empty() ? 0.0 : shareMs / sum;
-}
-
-double timeNeeded(const SelectInput& input, NodeId node) {
-    constexpr double kSmallestMs = 1e-12;  // a need of 0 would make the ratio of case 1 infinite
-    return std::max(kSmallestMs, input.vTimeMs * nodeCost(input.hierarchy, node, input.settings.cTextured));
 }
 
 double rootShare(const SelectInput& input) { return std::max(input.shareMs, 0.05 * input.targetMs); }

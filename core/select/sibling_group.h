@@ -3,6 +3,7 @@
 #pragma once
 
 #include "select/select.h"
+#include "select/slices.h"
 
 namespace fb {
 
@@ -17,12 +18,9 @@ enum class GroupMemory : std::uint8_t { loaded, missing, refused };  // refused:
     return memory == GroupMemory::refused ? BoundBy::memory : BoundBy::load;
 }
 
-// Slice of each member of the group in ms per unit of priority: slice_i = shareMs * p_i / sum of p (thesis eq. 4.1).
-// Finite and > 0 for a share > 0, as priorities are.
-[[nodiscard]] double sliceScale(const SelectState& state, double shareMs);
-
-// Estimated time of a node: v_time * cost, > 0.
-[[nodiscard]] double timeNeeded(const SelectInput& input, NodeId node);
+[[nodiscard]] inline double timeNeeded(const SelectInput& input, NodeId node) {
+    return nodeTimeMs(input.time, input.hierarchy, node);
+}
 
 // The share time of the roots, which a heavy overhead may not make negative (algorithms 5, case 11).
 [[nodiscard]] double rootShare(const SelectInput& input);
@@ -31,15 +29,12 @@ enum class GroupMemory : std::uint8_t { loaded, missing, refused };  // refused:
 // slice; decide(node, sliceMs) says whether it is expanded and leaves the visible children in state.group, which then
 // share the slice.
 template <class Decide>
-void descendBySlices(double shareMs, SelectState& state, Selection& selection, const Decide& decide) {
+void descendBySlices(const SelectInput& input, double shareMs, SelectState& state, Selection& selection, const Decide& decide) {
     state.queue.clear();
     state.shares.clear();
     const auto queueGroup = [&](double share) {
-        const double scale = sliceScale(state, share);
-        for (std::size_t i = 0; i < state.group.size(); ++i) {
-            state.queue.push_back(state.group[i]);
-            state.shares.push_back(scale * state.priorities[i]);
-        }
+        state.queue.insert(state.queue.end(), state.group.begin(), state.group.end());
+        appendSlices(input, share, state, selection.counters, state.shares);
     };
     queueGroup(shareMs);
     for (std::size_t next = 0; next < state.queue.size(); ++next) {

@@ -8,7 +8,21 @@ namespace fb {
 
 enum class Simplifier : std::uint8_t { meshoptimizer, openMesh };
 enum class TextureCodec : std::uint8_t { automatic, jpeg, lossless };
-enum class PolicyId : std::uint8_t { lakhia, lakhiaNaive, coarse, full };
+enum class PolicyId : std::uint8_t {
+    lakhia,
+    lakhiaNaive,
+    funkhouser,
+    funkhouserIncremental,
+    macielShirley,
+    erikson,
+    greedy,
+    screenError,
+    coarse,
+    full,
+    frontbench
+};
+inline constexpr int kPolicyCount = 11;
+enum class CostModel : std::uint8_t { vTime, leastSquares };
 enum class ColourMode : std::uint8_t { scene, level };
 enum class EffectMode : std::uint8_t { off, on, automatic };
 

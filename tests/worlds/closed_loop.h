@@ -15,6 +15,8 @@ struct ClosedLoop {
     Settings settings;
     ControlState control;
     FeatureRing ring;
+    TimeModel time;
+    ModelCounts counts;
     double actualMs = 0.0;
     std::uint64_t toggles = 0;
 
@@ -23,24 +25,41 @@ struct ClosedLoop {
     ClosedLoop(Hierarchy world, const Settings& all)
         : walk(std::move(world), all.select),
           settings(all),
-          control(startControl(all.model.texturedUs / all.select.cTextured / 1000.0, all.model.overheadMs)) {
+          control(startControl(all.control,
+                               {all.model.texturedUs / all.select.cTextured / 1000.0, all.model.overheadMs, 0.0},
+                               all.select.cTextured)) {
         walk.effects[Effect::shareFeedback] = true;
     }
 
     // `measuredMs` stands in for the device's time: a stall, or a device of other speed.
     void step(std::optional<double> measuredMs = std::nullopt) {
-        walk.vTimeMs = control.vTimeMs;
-        walk.overheadMs = control.overheadMs;
+        passTime(control, settings.control, walk.dtSeconds);
+        time = timeModel(control, settings.control, walk.settings.cTextured, 0.0, nullptr);
         walk.shareMs = shareMs(control, settings.control);
         walk.targetMs = settings.control.targetMs;
-        walk.step();
+        ++walk.frame;
+        SelectInput input = walk.input();
+        input.time = time;
+        selectFront(input, walk.state, walk.selection);
         const Selection& s = walk.selection;
         bool onlyRoots = true;
         for (NodeId n : s.front) onlyRoots = onlyRoots && n < walk.hierarchy.rootCount;
-        ring.push({walk.frame, s.frontCost, estimateMs(control, s.frontCost), s.counters.refusedGroups,
-                   onlyRoots, walk.effects[Effect::shareFeedback]});
-        const FrameWork work{s.texturedTriangles, s.triangles - s.texturedTriangles, s.front.size()};
-        actualMs = measuredMs ? *measuredMs : modelFrameMs(settings.model, work, walk.frame);
+        FrameFeatures features;
+        features.frame = walk.frame;
+        features.frontCost = s.frontCost;
+        features.fixedMs = time.fixedMs;
+        features.estimateMs = s.estimateMs;
+        features.triangles = s.triangles;
+        features.work = {1e-3 * static_cast<double>(s.texturedTriangles),
+                         1e-3 * static_cast<double>(s.triangles - s.texturedTriangles),
+                         static_cast<double>(s.front.size()), 0.0, 1.0};
+        features.refusedGroups = s.counters.refusedGroups;
+        features.onlyRoots = onlyRoots;
+        features.shareFeedback = walk.effects[Effect::shareFeedback];
+        ring.push(features);
+        const FrameWork work = modelWork(settings.model, walk.hierarchy, s.front, 0.0, 0, counts);
+        actualMs = measuredMs ? *measuredMs : modelFrameMs(settings.model, work, walk.frame, counts);
+        walk.measured = {s.triangles, actualMs};
         feedBack(control, settings.control, *ring.find(walk.frame), actualMs);
         toggles += s.counters.togglesUp + s.counters.togglesDown;
     }

@@ -34,6 +34,8 @@ struct TinyWalk {
     ActiveEffects effects;
     std::vector<std::uint8_t> loaded, refused;
     double vTimeMs = 1.0, overheadMs = 0.0, shareMs = 1.0, targetMs = 1.0, dtSeconds = 1.0 / 30.0;
+    double slowRatio = 1.0, residualMs = 0.0, textureMsPerByte = 0.0;
+    MeasuredFront measured;
     std::uint64_t frame = 0;
     SelectState state;
     Selection selection;
@@ -48,12 +50,18 @@ struct TinyWalk {
         state.reset(hierarchy, settings);
     }
 
+    [[nodiscard]] SelectInput input() const {
+        TimeModel time = timesByCost(vTimeMs, settings.cTextured, overheadMs);
+        time.slowRatio = slowRatio;
+        time.residualMs = residualMs;
+        time.textureMsPerByte = textureMsPerByte;
+        return {hierarchy, loaded,   refused,   view,  settings, effects,
+                time,      shareMs,  targetMs,  dtSeconds, frame,    measured};
+    }
     // One frame; gives the front in order of the ids.
     Front step() {
         ++frame;
-        selectFront({hierarchy, loaded, refused, view, settings, effects, vTimeMs, overheadMs, shareMs,
-                     targetMs, dtSeconds, frame},
-                    state, selection);
+        selectFront(input(), state, selection);
         Front front = selection.front;
         std::sort(front.begin(), front.end());
         return front;

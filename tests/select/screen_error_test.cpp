@@ -1,4 +1,4 @@
-#include "measure/front_error.h"
+#include "select/screen_error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,214 @@
+// Policy `frontbench`, our own (algorithms section 3): what is drawn stays until something is clearly better. Time that is
+// left goes to the refinement with the largest gain for its time, once it has fitted for a while; time that is missing is
+// taken from where it brings least; and time changes hands only where it brings several times as much there.
+#include <algorithm>
+#include <array>
+
+#include "select/select_policies.h"
+
+namespace fb {
+namespace {
+
+constexpr double kEnterLess = 0.77, kEnterMore = 1.3;  // of the price: what comes into view, refined before or not
+constexpr double kLeastWait = 0.03;                    // of refine_wait
+constexpr int kFasterWithRoom = 4;
+constexpr std::size_t kMostGivers = 3;
+
+class Trade {
+  public:
+    Trade(const SelectInput& input, SelectState& state, Selection& selection)
+        : in_(input), s_(input.settings), state_(state), selection_(selection), tree_(state.tree) {}
+
+    void run() {
+        tree_.start(in_, state_, selection_);
+        if (tree_.nodes.empty()) return;
+        continueFromBefore();
+        weighTotal();
+        if (totalMs_ > limitMs_) {
+            giveBack();
+        } else {
+            spend();
+        }
+        tree_.finish(selection_);
+    }
+
+  private:
+    // Step 2.
+    void continueFromBefore() {
+        for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+            const NodeId n = tree_.nodes[i].node;
+            const bool wasSeen = state_.wasSeen(n, in_.frame);
+            state_.seenFrame[n] = in_.frame;
+            if (!tree_.nodes[i].usable) {
+                set(n, false);
+                continue;
+            }
+            if (!wasSeen) {
+                const bool before = state_.refined[n] != 0;
+                const double bar = state_.price * (before ? kEnterLess : kEnterMore);
+                set(n, state_.price > 0.0 ? tree_.nodes[i].value > bar : before);
+            }
+            if (state_.refined[n] != 0) tree_.expand(i, in_, state_, selection_);
+        }
+    }
+
+    // Step 3: over seconds the device is as fast as it was over seconds; in an emergency, as it was just now.
+    void weighTotal() {
+        const double nowMs = in_.time.fixedMs + tree_.drawnMs();
+        totalMs_ = nowMs * in_.time.slowRatio;
+        if (nowMs > s_.emergencyMark * in_.targetMs) totalMs_ = std::max(totalMs_, nowMs);
+        scale_ = nowMs > 0.0 ? totalMs_ / nowMs : 1.0;
+        middleMs_ = in_.targetMs - s_.margin * in_.time.residualMs;
+        limitMs_ = std::max(s_.highMark * in_.targetMs, middleMs_);
+    }
+
+    // Step 4.
+    void giveBack() {
+        const ByValue order{tree_, true};
+        std::vector<std::uint32_t>& heap = state_.heapDown;
+        heap.clear();
+        const auto offer = [&](std::uint32_t i) {
+            if (!tree_.isInnermost(i) || !(tree_.nodes[i].extraMs > 0.0)) return;
+            heap.push_back(i);
+            std::ranges::push_heap(heap, order);
+        };
+        for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) offer(i);
+        while (totalMs_ > middleMs_ && !heap.empty()) {
+            std::ranges::pop_heap(heap, order);
+            const std::uint32_t least = heap.back();
+            heap.pop_back();
+            collapse(least);
+            state_.price = tree_.nodes[least].value;
+            if (tree_.nodes[least].parent != kNoRefinement) offer(tree_.nodes[least].parent);
+        }
+        for (Refinement& r : tree_.nodes) {
+            if (r.usable && !r.expanded && tree_.isReached(r)) refuse(r, BoundBy::time);
+        }
+    }
+
+    // Step 5.
+    void spend() {
+        const double unused = middleMs_ > 0.0 ? 1.0 - totalMs_ / middleMs_ : 0.0;
+        const double wait = s_.refineWait * std::clamp(1.0 - unused / s_.urgency, kLeastWait, 1.0);
+        const std::int64_t mostMade = s_.refineRate * (unused > s_.urgency ? kFasterWithRoom : 1);
+        const ByValue order{tree_};
+        std::vector<std::uint32_t>& heap = state_.heap;
+        heap.clear();
+        for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+            if (tree_.nodes[i].usable && !tree_.nodes[i].expanded) heap.push_back(i);
+        }
+        std::ranges::make_heap(heap, order);
+        std::int64_t made = 0, failed = 0;
+        while (!heap.empty()) {
+            std::ranges::pop_heap(heap, order);
+            const std::uint32_t best = heap.back();
+            heap.pop_back();
+            // A giver of an exchange takes its children's refinements with it.
+            if (!tree_.isReached(tree_.nodes[best])) continue;
+            float& waited = state_.waited[tree_.nodes[best].node];
+            if (totalMs_ + extraMs(best) <= middleMs_) {
+                waited += static_cast<float>(in_.dtSeconds);
+                if (static_cast<double>(waited) >= wait && made < mostMade) {
+                    expand(best);
+                    ++made;
+                } else {
+                    refuse(tree_.nodes[best], BoundBy::hysteresis);
+                }
+                continue;
+            }
+            const bool isWorthIt = failed == 0 && findGivers(best);
+            waited = isWorthIt ? waited + static_cast<float>(in_.dtSeconds)
+                               : std::max(0.0f, waited - static_cast<float>(in_.dtSeconds));
+            if (isWorthIt && static_cast<double>(waited) >= s_.exchangeWait) {
+                for (std::size_t g = 0; g < giverCount_; ++g) collapse(givers_[g]);
+                expand(best);
+                for (std::size_t g = 0; g < giverCount_; ++g) refuse(tree_.nodes[givers_[g]], BoundBy::time);
+            } else {
+                refuse(tree_.nodes[best], isWorthIt ? BoundBy::hysteresis : BoundBy::time);
+            }
+            if (++failed >= s_.refineRate) break;
+        }
+        for (const std::uint32_t i : heap) {
+            if (tree_.isReached(tree_.nodes[i])) refuse(tree_.nodes[i], BoundBy::time);
+        }
+    }
+
+    // The cheapest groups that may be given up for `taker`, as few as make room for it; false where there are none or
+    // they are worth too much.
+    bool findGivers(std::uint32_t taker) {
+        const Refinement& t = tree_.nodes[taker];
+        giverCount_ = 0;
+        for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+            const Refinement& r = tree_.nodes[i];
+            if (!tree_.isInnermost(i) || !(r.extraMs > 0.0) || i == t.parent) continue;
+            if (!(r.value * s_.exchangeFactor < t.value)) continue;
+            insertGiver(i);
+        }
+        double freedMs = 0.0, given = 0.0;
+        const double neededMs = totalMs_ + extraMs(taker) - middleMs_;
+        for (std::size_t g = 0; g < giverCount_; ++g) {
+            freedMs += extraMs(givers_[g]);
+            given += tree_.nodes[givers_[g]].value * extraMs(givers_[g]);
+            if (freedMs < neededMs) continue;
+            giverCount_ = g + 1;
+            return t.value * extraMs(taker) > s_.exchangeFactor * given;
+        }
+        return false;
+    }
+    void insertGiver(std::uint32_t i) {
+        const ByValue before{tree_};  // higher value
+        std::size_t at = giverCount_;
+        while (at > 0 && before(i, givers_[at - 1])) --at;
+        if (at == kMostGivers) return;
+        giverCount_ = std::min(giverCount_ + 1, kMostGivers);
+        for (std::size_t g = giverCount_ - 1; g > at; --g) givers_[g] = givers_[g - 1];
+        givers_[at] = i;
+    }
+
+    [[nodiscard]] double extraMs(std::uint32_t i) const { return scale_ * tree_.nodes[i].extraMs; }
+    void set(NodeId n, bool refined) {
+        state_.refined[n] = refined ? 1 : 0;
+        state_.waited[n] = 0.0f;
+    }
+    void collapse(std::uint32_t i) {
+        tree_.collapse(i);
+        totalMs_ -= extraMs(i);
+        set(tree_.nodes[i].node, false);
+    }
+    // Its children begin coarse in this frame: one level a frame.
+    void expand(std::uint32_t i) {
+        const auto first = static_cast<std::uint32_t>(tree_.nodes.size());
+        tree_.expand(i, in_, state_, selection_);
+        totalMs_ += extraMs(i);
+        set(tree_.nodes[i].node, true);
+        state_.price = tree_.nodes[i].value;
+        for (std::uint32_t c = first; c < tree_.nodes.size(); ++c) {
+            set(tree_.nodes[c].node, false);
+            state_.seenFrame[tree_.nodes[c].node] = in_.frame;
+            if (tree_.nodes[c].usable) refuse(tree_.nodes[c], BoundBy::hysteresis);
+        }
+    }
+    void refuse(Refinement& r, BoundBy reason) {
+        r.boundBy = reason;
+        r.needMs = scale_ * r.extraMs;
+        r.hadMs = middleMs_ - totalMs_;
+        if (reason == BoundBy::time) ++selection_.counters.refusedGroups;
+    }
+
+    const SelectInput& in_;
+    const SelectSettings& s_;
+    SelectState& state_;
+    Selection& selection_;
+    RefinementTree& tree_;
+    double totalMs_ = 0.0, middleMs_ = 0.0, limitMs_ = 0.0, scale_ = 1.0;
+    std::array<std::uint32_t, kMostGivers> givers_{};
+    std::size_t giverCount_ = 0;
+};
+
+}  // namespace
+
+void selectFrontbench(const SelectInput& input, SelectState& state, Selection& selection) {
+    Trade(input, state, selection).run();
+}
+
+}  // namespace fb

@@ -1,0 +1,83 @@
+#include "select/slices.h"
+
+#include <algorithm>
+
+namespace fb {
+namespace {
+
+constexpr int kHalvings = 60;
+
+// Triangles of all leaves below each node, once a scene: children stand after their parents.
+void sumLeaves(const Hierarchy& h, LeavesBelow& leaves) {
+    leaves.textured.assign(h.size(), 0.0);
+    leaves.untextured.assign(h.size(), 0.0);
+    leaves.count.assign(h.size(), 0.0);
+    for (NodeId n = h.size(); n-- > 0;) {
+        if (h.isLeaf(n)) {
+            leaves.textured[n] = h.texturedTriangles[n];
+            leaves.untextured[n] = h.untexturedTriangles[n];
+            leaves.count[n] = 1.0;
+        }
+        if (h.parent[n] == kNoNode) continue;
+        leaves.textured[h.parent[n]] += leaves.textured[n];
+        leaves.untextured[h.parent[n]] += leaves.untextured[n];
+        leaves.count[h.parent[n]] += leaves.count[n];
+    }
+}
+
+double leavesMs(const TimeModel& time, const LeavesBelow& leaves, NodeId n) {
+    return time.texturedMs * leaves.textured[n] + time.untexturedMs * leaves.untextured[n] + time.nodeMs * leaves.count[n];
+}
+
+
+double sumAt(double lambda, const SelectState& state, const std::vector<double>& into, std::size_t first) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < state.group.size(); ++i)
+        sum += std::clamp(lambda * state.priorities[i], into[first + 2 * i], into[first + 2 * i + 1]);
+    return sum;
+}
+
+void redistribute(const SelectInput& input, double shareMs, SelectState& state, std::vector<double>& into) {
+    if (state.leaves.count.size() != input.hierarchy.size()) sumLeaves(input.hierarchy, state.leaves);
+    const std::size_t first = into.size(), count = state.group.size();
+    double needs = 0.0, most = 0.0;
+    for (const NodeId n : state.group) {  // scratch behind what is there: need and cap of each
+        const double need = nodeTimeMs(input.time, input.hierarchy, n);
+        const double cap = std::max(need, leavesMs(input.time, state.leaves, n));
+        into.push_back(need);
+        into.push_back(cap);
+        needs += need;
+        most += cap;
+    }
+    double low = 0.0, high = 0.0;
+    for (std::size_t i = 0; i < count; ++i) high = std::max(high, into[first + 2 * i + 1] / state.priorities[i]);
+    if (needs < shareMs && shareMs < most) {
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (low + high);
+            (sumAt(middle, state, into, first) < shareMs ? low : high) = middle;
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const double need = into[first + 2 * i], cap = into[first + 2 * i + 1];
+        into[first + i] = needs >= shareMs ? shareMs * need / needs
+                          : most <= shareMs ? shareMs * cap / most
+                                            : std::clamp(high * state.priorities[i], need, cap);
+    }
+    into.resize(first + count);
+}
+
+}  // namespace
+
+void appendSlices(const SelectInput& input, double shareMs, SelectState& state, SelectCounters& counters,
+                  std::vector<double>& into) {
+    if (input.effects[Effect::redistribution]) {
+        counters.effectWork[Effect::redistribution] += state.group.size();
+        redistribute(input, shareMs, state, into);
+        return;
+    }
+    double sum = 0.0;
+    for (const double priority : state.priorities) sum += priority;
+    for (const double priority : state.priorities) into.push_back(shareMs / sum * priority);
+}
+
+}  // namespace fb
