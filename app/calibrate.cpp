@@ -42,6 +42,10 @@ void calibrateByModel(Workbench& w) {
 
 void calibrate(Workbench& w) {
     w.effects = decideEffects(w.settings.effects, w.sceneFacts, FrameFacts{});
+    if (w.knownConstants) {
+        w.control.measured = *w.knownConstants;
+        return;
+    }
     const Result<CameraPath> still = loadPath("still", w.scene->info);
     if (w.clock == ClockKind::model || !still) return calibrateByModel(w);
     calibrateByDrawing(w, viewAlong(w, *still, 0.0, kPicture));

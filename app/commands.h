@@ -71,6 +71,23 @@ struct ReplayCommand {
 };
 [[nodiscard]] Result<void> runReplay(const ReplayCommand& command);
 
+// Every policy on every path at every target, from the same state each time.
+struct CompareCommand {
+    std::filesystem::path scene;  // empty: the built-in city
+    std::vector<std::string> paths = {"walk", "fly"};
+    std::vector<std::string> policies;  // empty: all
+    std::vector<double> targets;        // ms; empty: the preset's
+    std::string preset = "default";
+    std::string clock = "model";
+    std::uint64_t frames = 0;  // 0: the whole path
+    std::uint64_t rounds = 1;
+    std::string size = "1280x720";
+    std::vector<std::string> sets;
+    std::filesystem::path out;
+    bool settle = false;
+};
+[[nodiscard]] Result<void> runCompare(const CompareCommand& command);
+
 struct CalibrateCommand {
     std::filesystem::path scene;  // empty: the built-in city
     std::string from = "default";

@@ -33,8 +33,8 @@ void decideFrameEffects(Workbench& w, const FrameInput& input, FrameRecord& reco
     facts.speedMetresPerSecond = record.speedMetresPerSecond;
     facts.everythingLoaded = w.plan.everythingLoaded;
     facts.policyUsesShareTime = policyOf(w.settings.select.policy).usesShareTime;
-    const SelectCounters& before = w.selection.counters;
-    facts.slicesUnused = before.refusedGroups > 0 && before.boundBy[static_cast<std::size_t>(BoundBy::leaf)] > 0;
+    facts.policyHasCounters = policyOf(w.settings.select.policy).hasCounters;
+    facts.slicesUnused = w.selection.counters.boundBy[static_cast<std::size_t>(BoundBy::leaf)] > 0;
     facts.fillShare = w.control.fillMsPerMegapixel * 1e-6 * input.width * input.height / w.settings.control.targetMs;
     facts.residentTextureBytes = w.residency.residentTextureBytes;
     facts.textureBudgetBytes = textureBudgetBytes(w.settings.load);
@@ -122,7 +122,12 @@ void recordSelection(Workbench& w, const View& view, FrameRecord& record) {
     for (const Reached& r : s.reached) {
         if (!r.expanded) record.refusedNeedMs += r.needMs;
     }
-    const FrontError error = frontError(w.scene->hierarchy, s.front, view);
+    // A node whose children are all out of view shows nothing of itself but its box.
+    w.seenFront.clear();
+    for (const Reached& r : s.reached) {
+        if (!r.expanded && r.boundBy != BoundBy::view) w.seenFront.push_back(r.node);
+    }
+    const FrontError error = frontError(w.scene->hierarchy, w.seenFront, view);
     record.errorPixelsMax = error.maxPixels;
     record.errorPixelsMean = error.meanPixels;
     record.overheadMs = w.control.overheadMs;

@@ -15,6 +15,7 @@ struct CommandLine {
     CityCommand city;
     ReplayCommand replay;
     CalibrateCommand calibrate;
+    CompareCommand compare;
     OpenCommand open;
     std::filesystem::path scene;
     bool json = false;
@@ -104,6 +105,24 @@ void addReplay(CLI::App& program, CommandLine& line) {
     command->callback([&line] { line.run = [&line] { return runReplay(line.replay); }; });
 }
 
+void addCompare(CLI::App& program, CommandLine& line) {
+    CLI::App* command = program.add_subcommand("compare", "Policies against each other: every path and target, the same start each time");
+    CompareCommand& c = line.compare;
+    command->add_option("SCENE", c.scene, "A scene's folder; the built-in city when left out");
+    command->add_option("--path", c.paths, "still walk drive fly walk-to-fly shake jump, or .toml files");
+    command->add_option("--policy", c.policies, "Selection policies; left out: all");
+    command->add_option("--target", c.targets, "Target times in ms; left out: the preset's");
+    command->add_option("--preset", c.preset, "A preset's name or .toml file");
+    command->add_option("--clock", c.clock, "model: simulated, the same on every machine; real: measured time");
+    command->add_option("--frames", c.frames, "Number of frames; 0 or left out: the whole path")->check(kNotNegative);
+    command->add_option("--rounds", c.rounds, "Walk everything this often; what else the machine does falls on all alike")->check(CLI::PositiveNumber);
+    command->add_option("--size", c.size, "Size of the picture, as in 1280x720");
+    command->add_option("--set", c.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
+    command->add_flag("--settle", c.settle, "Load what the first view wants before each walk starts");
+    command->add_option("--out", c.out, "Folder for compare.csv")->required();
+    command->callback([&line] { line.run = [&line] { return runCompare(line.compare); }; });
+}
+
 void addCalibrate(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("calibrate", "Measure the constants of the cost model and save them as a preset");
     CalibrateCommand& c = line.calibrate;
@@ -164,6 +183,7 @@ int runProgram(int argumentCount, char** arguments) {
     addCity(program, line);
     addSceneCommands(program, line);
     addReplay(program, line);
+    addCompare(program, line);
     addCalibrate(program, line);
     addKnobs(program, line);
     addPresets(program, line);

@@ -47,9 +47,10 @@ struct Workbench {
     Selection selection;
     ActiveEffects effects;
     ControlState control;
+    std::optional<MeasuredConstants> knownConstants;  // then opening a scene measures nothing
     View view;                // of this frame
     MeasuredFront measured;   // the newest whose time is known
-    std::vector<NodeId> roots;  // scratch
+    std::vector<NodeId> roots, seenFront;  // scratch
     ModelCounts modelCounts;
     FeatureRing features;
 

@@ -17,17 +17,9 @@ constexpr double kResidualGain = 0.02, kDeviationOfMean = 1.2533, kOutlierResidu
 // Of the prior where nothing has measured them: a node and a megapixel against a thousand triangles.
 constexpr double kNodePrior = 0.05, kFillPrior = 4.0;
 
-double median3(double a, double b, double c) {
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
-
-// The measurement that v_time follows: the median of the last three, so that a stall of one frame passes by
-// (case 9).
-double gatedMarginal(ControlState& state, bool gate, double marginalMs) {
-    state.recentMarginal[state.recentCount % 3] = marginalMs;
-    ++state.recentCount;
-    if (!gate || state.recentCount < 3) return marginalMs;
-    return median3(state.recentMarginal[0], state.recentMarginal[1], state.recentMarginal[2]);
+// Frames that the gate looks at: an odd number.
+std::size_t gateFrames(const ControlSettings& settings) {
+    return settings.medianGate ? static_cast<std::size_t>(settings.medianFrames / 2 * 2 + 1) : 1;
 }
 
 void feedBackVTime(ControlState& state, const ControlSettings& settings, double marginalMs) {
@@ -119,7 +111,7 @@ void rescaleCost(ControlState& state, double ratio) {
     state.vTimeMs /= ratio;
     state.calibratedMs /= ratio;
     state.measured.vTimeMs /= ratio;
-    for (double& marginalMs : state.recentMarginal) marginalMs /= ratio;
+    state.marginal.scale(1.0 / ratio);
 }
 
 void followCostModel(ControlState& state, CostModel wanted, double cTextured) {
@@ -143,12 +135,12 @@ void feedBack(ControlState& state, const ControlSettings& settings, const FrameF
     double steadyMs = actualMs;
     if (actualMs > features.fixedMs) {  // otherwise there is no marginal time in it (case 10)
         const double measured = (actualMs - features.fixedMs) / features.frontCost;
-        const double gated = gatedMarginal(state, settings.medianGate, measured);
+        const double gated = state.marginal.pass(measured, gateFrames(settings));
         feedBackVTime(state, settings, gated);
         // What this front takes when nothing stalls: a stall must not move the share time either (case 9).
         if (gated != measured) steadyMs = features.fixedMs + gated * features.frontCost;
     }
-    if (state.model == CostModel::leastSquares && actualMs > 0.0) learn(state.fit, features.work, actualMs);
+    if (state.model == CostModel::leastSquares && actualMs > 0.0) learn(state.fit, features.work, actualMs, gateFrames(settings));
     if (features.shareFeedback) feedBackShare(state, settings, features, steadyMs);
 }
 

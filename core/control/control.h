@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "control/cost_fit.h"
+#include "control/median_gate.h"
 #include "select/time_model.h"
 #include "settings/settings.h"
 
@@ -26,8 +27,7 @@ struct ControlState {
     MeasuredConstants measured;   // what counts where no knob says otherwise
     double shareScale = 1.0;      // share time of the roots as a multiple of T - O, moved by the second loop
     bool infeasible = false;      // the roots alone take longer than the target (algorithms 5, case 17)
-    std::array<double, 3> recentMarginal{};  // last measurements of (actual - fixed) / cost, for the median gate
-    std::uint64_t recentCount = 0;
+    MedianGate marginal;          // of (actual - fixed) / cost
     CostModel model = CostModel::vTime;
     CostFit fit;                  // of the model by least squares
     double slowSpeed = 1.0;       // m_slow: the fast factor of either model, averaged over seconds

@@ -12,11 +12,6 @@ constexpr double kForgetting = 0.999, kNoiseGain = 0.01, kFastGain = 0.3, kBackT
 constexpr double kFactorRange = 8.0, kLeastOfPrior = 0.25;
 constexpr double kFirstNoiseShare = 0.03;  // of what the first frames took
 
-double medianOf(std::array<double, 3> v) {
-    std::ranges::sort(v);
-    return v[1];
-}
-
 // The first frames: the median of actual over prior becomes the scale of everything.
 void findScale(CostFit& fit, double ratio, double actualMs) {
     fit.startRatios[fit.measured] = ratio;
@@ -30,8 +25,8 @@ void findScale(CostFit& fit, double ratio, double actualMs) {
         fit.priorVariance[i] *= scale * scale;
         for (double& c : fit.covariance[i]) c *= scale * scale;
     }
-    for (double& r : fit.recentRatios) r /= scale;
-    fit.factor /= scale;
+    fit.ratios.scale(1.0 / scale);
+    fit.factor = std::clamp(fit.factor / scale, 1.0 / kFactorRange, kFactorRange);
     fit.noiseVariance = kFirstNoiseShare * actualMs * kFirstNoiseShare * actualMs;
 }
 
@@ -87,12 +82,11 @@ double modelledMs(const CostFit& fit, const WorkVector& work) {
     return ms;
 }
 
-void learn(CostFit& fit, const WorkVector& work, double actualMs) {
+void learn(CostFit& fit, const WorkVector& work, double actualMs, std::size_t gateFrames) {
     const double modelled = modelledMs(fit, work);
     if (!(modelled > 0.0) || !std::isfinite(modelled)) return;
     const double ratio = actualMs / modelled;
-    fit.recentRatios[fit.measured % 3] = ratio;
-    const double now = fit.measured < 2 ? ratio : medianOf(fit.recentRatios);
+    const double now = fit.ratios.pass(ratio, gateFrames);
     fit.factor += kFastGain * (now - fit.factor) + kBackToOne * (1.0 - fit.factor);
     fit.factor = std::clamp(fit.factor, 1.0 / kFactorRange, kFactorRange);
     if (fit.measured < fit.startRatios.size()) {

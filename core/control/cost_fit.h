@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 
+#include "control/median_gate.h"
+
 namespace fb {
 
 inline constexpr int kWorkKinds = 5;
@@ -18,7 +20,7 @@ struct CostFit {
     WorkVector prior{}, priorVariance{};
     double noiseVariance = 1.0;  // ms^2
     double factor = 1.0;         // m: the device's time now over the model's
-    std::array<double, 3> recentRatios{};
+    MedianGate ratios;           // of actual over modelled
     std::array<double, 8> startRatios{};
     std::uint64_t measured = 0;
 };
@@ -28,6 +30,6 @@ struct CostFit {
 [[nodiscard]] CostFit startCostFit(const WorkVector& prior);
 [[nodiscard]] double modelledMs(const CostFit& fit, const WorkVector& work);  // theta . x, without the fast factor
 // One measured frame; actualMs is finite and > 0.
-void learn(CostFit& fit, const WorkVector& work, double actualMs);
+void learn(CostFit& fit, const WorkVector& work, double actualMs, std::size_t gateFrames);
 
 }  // namespace fb

@@ -54,11 +54,12 @@ constexpr std::array<EffectRow, kEffectCount> kTable = {{
          return on ? "the policy shares time out from the roots" : "the policy has no share time";
      }},
     {Effect::redistribution, "redistribution", [](const EffectSettings& s) { return s.redistribution; },
-     [](const SceneFacts&, const FrameFacts& f) { return f.policyUsesShareTime && f.slicesUnused; },
+     [](const SceneFacts&, const FrameFacts& f) { return f.policyUsesShareTime && f.policyHasCounters && f.slicesUnused; },
      [](const SceneFacts&, const FrameFacts& f, bool on) -> std::string {
-         if (on) return "some slices are larger than all that is below them needs, and others are too small";
-         return f.policyUsesShareTime ? "no slice is left unused while another is too small"
-                                      : "the policy has no share time";
+         if (on) return "leaves are drawn, which may have more time than they need";
+         if (!f.policyUsesShareTime) return "the policy has no share time";
+         return f.policyHasCounters ? "no leaf is drawn: every slice can be used"
+                                    : "without counters of hysteresis it would switch in every frame";
      }},
     {Effect::fillRate, "fill_rate", [](const EffectSettings& s) { return s.fillRate; },
      [](const SceneFacts&, const FrameFacts& f) { return f.fillShare >= kNoticeableFill; },

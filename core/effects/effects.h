@@ -36,7 +36,8 @@ struct FrameFacts {
     double speedMetresPerSecond = 0.0;
     bool everythingLoaded = false;
     bool policyUsesShareTime = true;
-    bool slicesUnused = false;  // in the frame before, leaves had more time than they need and others too little
+    bool policyHasCounters = true;  // of hysteresis
+    bool slicesUnused = false;  // in the frame before, leaves were drawn: they may have had more time than they need
     double fillShare = 0.0;     // time of filling the whole picture as a part of the target
     std::uint64_t residentTextureBytes = 0, textureBudgetBytes = 0;  // no budget: 0
 };

@@ -63,7 +63,13 @@ constexpr std::array kAfterLevels = {
     boundColumn<BoundBy::hysteresis>("bound_by_hysteresis"),
     boundColumn<BoundBy::leaf>("bound_by_leaf"),
     boundColumn<BoundBy::memory>("bound_by_memory"),
-    Column{"front_hash", [](std::string& text, const R& frame) { text += hashText(frame.frontHash); }}};
+    Column{"front_hash", [](std::string& text, const R& frame) { text += hashText(frame.frontHash); }},
+    boundColumn<BoundBy::view>("bound_by_view"),
+    boundColumn<BoundBy::policy>("bound_by_policy"),
+    column<&R::refusedGroups>("refused_groups"),
+    column<&R::refusedNeedMs>("refused_need_ms"),
+    column<&R::skippedRoots>("skipped_roots"),
+    column<&R::fixedMs>("fixed_ms")};
 
 }  // namespace
 

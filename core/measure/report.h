@@ -44,6 +44,8 @@ struct ReplayReport {
 // - memory.over_budget_frames: frames with resident + reserved > budget
 // - infeasible_frames: frames in which the roots alone were estimated to take longer than the target
 // - err_px: mean of err_px_mean, p95 and max of err_px_max
+// - skipped_roots: mean number of roots in view that were not drawn at all
+// - refused: mean number of loaded groups that were refused, and of the time that all that is refused would take
 // - image: see ImageErrorSummary; a figure in decibels is null where all pictures are identical
 // - front_hash: of the last frame
 [[nodiscard]] std::string summaryJson(const ReplayReport& report);

@@ -5,33 +5,16 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
-#include "measure/report.h"
+#include "measure/walk_figures.h"
 
 namespace fb {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class Value>
-std::vector<double> collect(const std::vector<FrameRecord>& frames, const Value& value) {
-    std::vector<double> values;
-    values.reserve(frames.size());
-    for (const FrameRecord& frame : frames) values.push_back(static_cast<double>(value(frame)));
-    return values;
-}
-
-template <class Member>
-std::vector<double> collect(const std::vector<FrameRecord>& frames, Member FrameRecord::*member) {
-    return collect(frames, [member](const FrameRecord& frame) { return frame.*member; });
-}
-
 // null for what is not finite: JSON has no other word for it.
 Json numberOrNull(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-double percentOf(std::size_t part, std::size_t whole) {
-    return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
 Json actualOf(const std::vector<FrameRecord>& frames) {
@@ -40,43 +23,23 @@ Json actualOf(const std::vector<FrameRecord>& frames) {
 }
 
 Json utilisationOf(const std::vector<FrameRecord>& frames) {
-    std::vector<double> ratios;
-    for (const FrameRecord& frame : frames) {
-        if (frame.moreDetailAvailable && frame.targetMs > 0.0)
-            ratios.push_back(frame.actualMs / frame.targetMs);
-    }
-    return ratios.empty() ? Json(nullptr) : Json(describe(ratios).mean);
-}
-
-double overTargetPercent(const std::vector<FrameRecord>& frames) {
-    const auto over = [](const FrameRecord& frame) { return frame.actualMs > 1.1 * frame.targetMs; };
-    return percentOf(static_cast<std::size_t>(std::ranges::count_if(frames, over)), frames.size());
+    const std::optional<double> mean = utilisation(frames);
+    return mean ? Json(*mean) : Json(nullptr);
 }
 
 Json estimateErrorOf(const std::vector<FrameRecord>& frames) {
-    std::vector<double> percents;
-    for (const FrameRecord& frame : frames) {
-        if (frame.actualMs > 0.0)
-            percents.push_back(100.0 * (frame.actualMs - frame.estimateMs) / frame.actualMs);
-    }
-    const Distribution d = describe(percents);
-    if (percents.empty()) return {{"mean", nullptr}, {"sd", nullptr}};
-    return {{"mean", d.mean}, {"sd", d.sd}};
+    const std::optional<Distribution> d = estimateErrorPercent(frames);
+    if (!d) return {{"mean", nullptr}, {"sd", nullptr}};
+    return {{"mean", d->mean}, {"sd", d->sd}};
 }
 
 Json togglesOf(const std::vector<FrameRecord>& frames) {
-    std::uint64_t up = 0, down = 0, pingPongs = 0;
-    for (const FrameRecord& frame : frames) {
-        up += frame.togglesUp;
-        down += frame.togglesDown;
-        pingPongs += frame.pingPongs;
-    }
-    const double count = static_cast<double>(frames.size()), toggles = static_cast<double>(up + down);
-    return {{"up", up},
-            {"down", down},
-            {"per_frame", frames.empty() ? 0.0 : toggles / count},
-            {"frames_per_toggle", toggles > 0.0 ? Json(count / toggles) : Json(nullptr)},
-            {"pingpong", pingPongs}};
+    const ToggleFigures t = toggleFigures(frames);
+    return {{"up", t.up},
+            {"down", t.down},
+            {"per_frame", t.perFrame},
+            {"frames_per_toggle", t.perFrame > 0.0 ? Json(1.0 / t.perFrame) : Json(nullptr)},
+            {"pingpong", t.pingPongs}};
 }
 
 Json levelsShareOf(const std::vector<FrameRecord>& frames, int levels) {
@@ -169,6 +132,9 @@ std::string summaryJson(const ReplayReport& report) {
                      {"suspended", loads.suspended}, {"cancelled", loads.cancelled},
                      {"evicted", loads.evicted},     {"bytes", loads.bytes},
                      {"failed", loads.failed}};
+    json["skipped_roots"] = describe(collect(frames, &FrameRecord::skippedRoots)).mean;
+    json["refused"] = {{"groups_mean", describe(collect(frames, &FrameRecord::refusedGroups)).mean},
+                       {"need_ms_mean", describe(collect(frames, &FrameRecord::refusedNeedMs)).mean}};
     json["err_px"] = errorPixelsOf(frames);
     if (report.image) json["image"] = imageOf(*report.image);
     json["effects"] = effectsOf(report);

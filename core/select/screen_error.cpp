@@ -35,6 +35,12 @@ double nodeErrorPixels(const Hierarchy& hierarchy, NodeId node, const View& view
                        pictureOf(view));
 }
 
+double coveredPixels(const Hierarchy& hierarchy, NodeId node, const View& view) {
+    const double scale = view.pixelsPerUnit / distanceTo(hierarchy.bounds[node], view.camera.eye);  // infinite inside
+    const double area = static_cast<double>(hierarchy.areaSquareMetres[node]);
+    return area > 0.0 ? std::min(1.0 * view.width * view.height, area * scale * scale) : 0.0;
+}
+
 FrontError frontError(const Hierarchy& hierarchy, std::span<const NodeId> front, const View& view) {
     const Picture picture = pictureOf(view);
     FrontError error;
@@ -43,9 +49,7 @@ FrontError frontError(const Hierarchy& hierarchy, std::span<const NodeId> front,
         const double distance = distanceTo(hierarchy.bounds[node], view.camera.eye);
         const double pixels = errorPixels(static_cast<double>(hierarchy.geometricErrorMetres[node]), distance,
                                           view.pixelsPerUnit, picture);
-        const double scale = view.pixelsPerUnit / distance;  // infinite inside the box
-        const double area = static_cast<double>(hierarchy.areaSquareMetres[node]);
-        const double weight = area > 0.0 ? std::min(picture.pixels, area * scale * scale) : 0.0;
+        const double weight = coveredPixels(hierarchy, node, view);
         error.maxPixels = std::max(error.maxPixels, pixels);
         sum += weight * pixels;
         weights += weight;

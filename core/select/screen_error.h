@@ -22,6 +22,8 @@ struct FrontError {
 // diagonal of the picture, which it is where d <= eps: there the bound knows nothing.
 [[nodiscard]] double nodeErrorPixels(const Hierarchy& hierarchy, NodeId node, const View& view);
 
+// The pixels that a node's surface may cover: area * (K/d)^2, at most the whole picture.
+[[nodiscard]] double coveredPixels(const Hierarchy& hierarchy, NodeId node, const View& view);
 [[nodiscard]] FrontError frontError(const Hierarchy& hierarchy, std::span<const NodeId> front,
                                     const View& view);
 

@@ -106,6 +106,7 @@ struct Policy {
     PolicyId id;
     std::string_view name, help;
     bool usesShareTime;  // the second feedback loop belongs to it
+    bool hasCounters;    // of hysteresis: slices may change without a switch in each frame
     void (*select)(const SelectInput&, SelectState&, Selection&);
 };
 [[nodiscard]] std::span<const Policy> policies();

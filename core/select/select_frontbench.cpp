@@ -3,6 +3,8 @@
 // taken from where it brings least; and time changes hands only where it brings several times as much there.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "select/select_policies.h"
 
@@ -12,7 +14,10 @@ namespace {
 constexpr double kEnterLess = 0.77, kEnterMore = 1.3;  // of the price: what comes into view, refined before or not
 constexpr double kLeastWait = 0.03;                    // of refine_wait
 constexpr int kFasterWithRoom = 4;
-constexpr std::size_t kMostGivers = 3;
+constexpr std::size_t kMostGivers = 16;
+constexpr double kEmergencyMargins = 3.0;
+constexpr double kUrgent = 4.0;
+constexpr double kPriceSeconds = 1.0;
 
 class Trade {
   public:
@@ -56,10 +61,13 @@ class Trade {
     void weighTotal() {
         const double nowMs = in_.time.fixedMs + tree_.drawnMs();
         totalMs_ = nowMs * in_.time.slowRatio;
-        if (nowMs > s_.emergencyMark * in_.targetMs) totalMs_ = std::max(totalMs_, nowMs);
+        // What the estimate cannot tell from noise must switch nothing.
+        const double marginMs = s_.margin * in_.time.residualMs;
+        const double emergencyMs = std::max(s_.emergencyMark * in_.targetMs, in_.targetMs + kEmergencyMargins * marginMs);
+        if (nowMs > emergencyMs) totalMs_ = std::max(totalMs_, nowMs);
         scale_ = nowMs > 0.0 ? totalMs_ / nowMs : 1.0;
-        middleMs_ = in_.targetMs - s_.margin * in_.time.residualMs;
-        limitMs_ = std::max(s_.highMark * in_.targetMs, middleMs_);
+        middleMs_ = in_.targetMs - marginMs;
+        limitMs_ = std::max(s_.highMark * in_.targetMs, in_.targetMs + marginMs);
     }
 
     // Step 4.
@@ -98,6 +106,8 @@ class Trade {
             if (tree_.nodes[i].usable && !tree_.nodes[i].expanded) heap.push_back(i);
         }
         std::ranges::make_heap(heap, order);
+        const double priceBefore = state_.price;
+        double bestRefused = 0.0;
         std::int64_t made = 0, failed = 0;
         while (!heap.empty()) {
             std::ranges::pop_heap(heap, order);
@@ -106,9 +116,12 @@ class Trade {
             // A giver of an exchange takes its children's refinements with it.
             if (!tree_.isReached(tree_.nodes[best])) continue;
             float& waited = state_.waited[tree_.nodes[best].node];
+            const double value = tree_.nodes[best].value;
             if (totalMs_ + extraMs(best) <= middleMs_) {
+                // What brings far more than what was refused last does not wait; nor does anything while nothing is refused.
+                const bool isUrgent = value > kUrgent * s_.exchangeFactor * priceBefore;
                 waited += static_cast<float>(in_.dtSeconds);
-                if (static_cast<double>(waited) >= wait && made < mostMade) {
+                if (isUrgent || (static_cast<double>(waited) >= wait && made < mostMade)) {
                     expand(best);
                     ++made;
                 } else {
@@ -116,8 +129,10 @@ class Trade {
                 }
                 continue;
             }
-            const bool isWorthIt = failed == 0 && findGivers(best);
-            waited = isWorthIt ? waited + static_cast<float>(in_.dtSeconds)
+            bestRefused = std::max(bestRefused, value);
+            const double ratio = findGivers(best);
+            const bool isWorthIt = ratio > s_.exchangeFactor;
+            waited = isWorthIt ? waited + static_cast<float>(in_.dtSeconds * ratio / s_.exchangeFactor)
                                : std::max(0.0f, waited - static_cast<float>(in_.dtSeconds));
             if (isWorthIt && static_cast<double>(waited) >= s_.exchangeWait) {
                 for (std::size_t g = 0; g < giverCount_; ++g) collapse(givers_[g]);
@@ -129,13 +144,20 @@ class Trade {
             if (++failed >= s_.refineRate) break;
         }
         for (const std::uint32_t i : heap) {
-            if (tree_.isReached(tree_.nodes[i])) refuse(tree_.nodes[i], BoundBy::time);
+            if (!tree_.isReached(tree_.nodes[i])) continue;
+            if (tree_.nodes[i].extraMs > 0.0) {
+                refuse(tree_.nodes[i], BoundBy::time);
+            } else {
+                expand(i);  // takes no more time: nothing to weigh up
+            }
         }
+        // It falls slowly: a moment without anybody refused says little.
+        state_.price = std::max(bestRefused, priceBefore * kPriceSeconds / (kPriceSeconds + in_.dtSeconds));
     }
 
-    // The cheapest groups that may be given up for `taker`, as few as make room for it; false where there are none or
-    // they are worth too much.
-    bool findGivers(std::uint32_t taker) {
+    // The cheapest groups that may be given up for `taker`, as few as make room for it: how many times as much it
+    // brings as they do; 0 where there are none.
+    double findGivers(std::uint32_t taker) {
         const Refinement& t = tree_.nodes[taker];
         giverCount_ = 0;
         for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
@@ -151,9 +173,9 @@ class Trade {
             given += tree_.nodes[givers_[g]].value * extraMs(givers_[g]);
             if (freedMs < neededMs) continue;
             giverCount_ = g + 1;
-            return t.value * extraMs(taker) > s_.exchangeFactor * given;
+            return t.value * extraMs(taker) / given;
         }
-        return false;
+        return 0.0;
     }
     void insertGiver(std::uint32_t i) {
         const ByValue before{tree_};  // higher value
@@ -181,7 +203,6 @@ class Trade {
         tree_.expand(i, in_, state_, selection_);
         totalMs_ += extraMs(i);
         set(tree_.nodes[i].node, true);
-        state_.price = tree_.nodes[i].value;
         for (std::uint32_t c = first; c < tree_.nodes.size(); ++c) {
             set(tree_.nodes[c].node, false);
             state_.seenFrame[tree_.nodes[c].node] = in_.frame;

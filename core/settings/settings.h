@@ -22,6 +22,7 @@ enum class PolicyId : std::uint8_t {
     frontbench
 };
 inline constexpr int kPolicyCount = 11;
+enum class GainMeasure : std::uint8_t { benefit, error };
 enum class CostModel : std::uint8_t { vTime, leastSquares };
 enum class ColourMode : std::uint8_t { scene, level };
 enum class EffectMode : std::uint8_t { off, on, automatic };

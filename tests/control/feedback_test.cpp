@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "control/control.h"
+#include "worlds/feedback.h"
 #include "worlds/random_worlds.h"
 
 namespace fb {
@@ -15,6 +16,7 @@ ControlSettings plainControl() {
     ControlSettings settings;
     settings.targetMs = 30.0;
     settings.medianGate = false;
+    settings.medianFrames = 3;
     settings.vTimeGain = 0.3;
     settings.shareGain = settings.shareDrop = 0.01;
     settings.shareProportional = false;
@@ -29,13 +31,13 @@ FrameFeatures frontOf(double cost) {
 }
 
 TEST(Estimate, IsOverheadPlusVTimeTimesCost) {
-    const ControlState state = startControl(0.25, 2.0);
+    const ControlState state = startedAt(0.25, 2.0);
     EXPECT_EQ(estimateMs(state, 0.0), 2.0);
     EXPECT_EQ(estimateMs(state, 100.0), 27.0);
 }
 
 TEST(Start, IsWhatWasMeasuredWhereNoKnobSaysOtherwise) {
-    const ControlState state = startControl(plainControl(), 0.25, 2.0);
+    const ControlState state = startControl(plainControl(), {0.25, 2.0, 0.0}, 0.5);
     EXPECT_EQ(state.vTimeMs, 0.25);
     EXPECT_EQ(state.calibratedMs, 0.25);
     EXPECT_EQ(state.overheadMs, 2.0);
@@ -45,11 +47,11 @@ TEST(Start, TakesTheKnobsAndKeepsWhatWasMeasured) {
     ControlSettings settings = plainControl();
     settings.vTimeStartMs = 0.5;
     settings.overheadMs = 3.0;
-    const ControlState state = startControl(settings, 0.25, 2.0);
+    const ControlState state = startControl(settings, {0.25, 2.0, 0.0}, 0.5);
     EXPECT_EQ(state.vTimeMs, 0.5);
     EXPECT_EQ(state.calibratedMs, 0.25);
     EXPECT_EQ(state.overheadMs, 3.0);
-    EXPECT_EQ(state.measuredOverheadMs, 2.0);
+    EXPECT_EQ(state.measured.overheadMs, 2.0);
     EXPECT_EQ(shareMs(state, settings), 27.0);
 }
 
@@ -57,18 +59,18 @@ TEST(Start, TakesTheKnobsAndKeepsWhatWasMeasured) {
 TEST(Start, KeepsVTimeWhereTheFeedbackCanFollow) {
     ControlSettings settings = plainControl();
     settings.vTimeStartMs = 250.0;
-    EXPECT_EQ(startControl(settings, 0.25, 2.0).vTimeMs, 2.0);
+    EXPECT_EQ(startControl(settings, {0.25, 2.0, 0.0}, 0.5).vTimeMs, 2.0);
     settings.vTimeStartMs = 1e-9;
-    EXPECT_EQ(startControl(settings, 0.25, 2.0).vTimeMs, 0.03125);
+    EXPECT_EQ(startControl(settings, {0.25, 2.0, 0.0}, 0.5).vTimeMs, 0.03125);
 }
 
 TEST(VTime, MovesByThePartGainTowardsWhatWasMeasured) {
-    ControlState state = startControl(0.25, 2.0);
+    ControlState state = startedAt(0.25, 2.0);
     // (52 - 2) / 100 = 0.5: 0.25 + 0.3 * 0.25
-    feedBack(state, plainControl(), frontOf(100), 52.0);
+    feed(state, plainControl(), frontOf(100), 52.0);
     EXPECT_DOUBLE_EQ(state.vTimeMs, 0.325);
     // (12 - 2) / 100 = 0.1: 0.325 - 0.3 * 0.225
-    feedBack(state, plainControl(), frontOf(100), 12.0);
+    feed(state, plainControl(), frontOf(100), 12.0);
     EXPECT_DOUBLE_EQ(state.vTimeMs, 0.2575);
     EXPECT_EQ(state.calibratedMs, 0.25);
 }
@@ -76,23 +78,23 @@ TEST(VTime, MovesByThePartGainTowardsWhatWasMeasured) {
 TEST(VTime, StandsStillWithAGainOfZeroAndJumpsWithAGainOfOne) {
     ControlSettings settings = plainControl();
     settings.vTimeGain = 0.0;
-    ControlState state = startControl(0.25, 2.0);
-    feedBack(state, settings, frontOf(100), 52.0);
+    ControlState state = startedAt(0.25, 2.0);
+    feed(state, settings, frontOf(100), 52.0);
     EXPECT_EQ(state.vTimeMs, 0.25);
     settings.vTimeGain = 1.0;
-    feedBack(state, settings, frontOf(100), 52.0);
+    feed(state, settings, frontOf(100), 52.0);
     EXPECT_EQ(state.vTimeMs, 0.5);
 }
 
 TEST(VTime, StaysWithinAnEighthAndEightTimesItsCalibratedValue) {
     ControlSettings settings = plainControl();
     settings.vTimeGain = 1.0;
-    ControlState state = startControl(0.25, 0.0);
-    feedBack(state, settings, frontOf(1), 1000.0);
+    ControlState state = startedAt(0.25, 0.0);
+    feed(state, settings, frontOf(1), 1000.0);
     EXPECT_EQ(state.vTimeMs, 2.0);
-    feedBack(state, settings, frontOf(1000), 0.001);
+    feed(state, settings, frontOf(1000), 0.001);
     EXPECT_EQ(state.vTimeMs, 0.03125);
-    feedBack(state, settings, frontOf(1), 1.0);
+    feed(state, settings, frontOf(1), 1.0);
     EXPECT_EQ(state.vTimeMs, 1.0) << "a limit is not a trap";
 }
 
@@ -100,11 +102,11 @@ TEST(MedianGate, FollowsTheMedianOfTheLastThreeMeasurements) {
     ControlSettings settings = plainControl();
     settings.medianGate = true;
     settings.vTimeGain = 1.0;
-    ControlState state = startControl(1.0, 0.0);
+    ControlState state = startedAt(1.0, 0.0);
     const double measured[] = {2, 4, 1, 7, 3, 3, 8};
     const double followed[] = {2, 4, 2, 4, 3, 3, 3};  // the first two have no three to choose from
     for (int i = 0; i < 7; ++i) {
-        feedBack(state, settings, frontOf(1), measured[i]);
+        feed(state, settings, frontOf(1), measured[i]);
         EXPECT_EQ(state.vTimeMs, followed[i]) << "measurement " << i;
     }
 }
@@ -115,8 +117,8 @@ TEST(MedianGate, DoesNotMindTheOrder) {
     settings.medianGate = true;
     settings.vTimeGain = 1.0;
     for (const auto& order : orders) {
-        ControlState state = startControl(1.0, 0.0);
-        for (double measured : order) feedBack(state, settings, frontOf(1), measured);
+        ControlState state = startedAt(1.0, 0.0);
+        for (double measured : order) feed(state, settings, frontOf(1), measured);
         EXPECT_EQ(state.vTimeMs, 2.0) << order[0] << order[1] << order[2];
     }
 }
@@ -125,12 +127,12 @@ TEST(MedianGate, CountsMeasurementsThatSayNothingNeitherWay) {
     ControlSettings settings = plainControl();
     settings.medianGate = true;
     settings.vTimeGain = 1.0;
-    ControlState state = startControl(1.0, 0.5);
-    for (double ms : {2.5, 4.5, 1.5}) feedBack(state, settings, frontOf(1), ms);
+    ControlState state = startedAt(1.0, 0.5);
+    for (double ms : {2.5, 4.5, 1.5}) feed(state, settings, frontOf(1), ms);
     EXPECT_EQ(state.vTimeMs, 2.0);
-    feedBack(state, settings, frontOf(1), 0.5);  // actual = O
-    feedBack(state, settings, frontOf(0), 9.0);  // empty front
-    feedBack(state, settings, frontOf(1), 3.5);  // median of 4, 1, 3
+    feed(state, settings, frontOf(1), 0.5);  // actual = O
+    feed(state, settings, frontOf(0), 9.0);  // empty front
+    feed(state, settings, frontOf(1), 3.5);  // median of 4, 1, 3
     EXPECT_EQ(state.vTimeMs, 3.0);
 }
 
@@ -146,8 +148,8 @@ FrameFeatures shareFrame(std::uint32_t refused, bool onlyRoots = false) {
 
 double scaleAfter(double actualMs, const FrameFeatures& features,
                   const ControlSettings& settings = plainControl()) {
-    ControlState state = startControl(0.25, 2.0);
-    feedBack(state, settings, features, actualMs);
+    ControlState state = startedAt(0.25, 2.0);
+    feed(state, settings, features, actualMs);
     return state.shareScale;
 }
 
@@ -200,15 +202,15 @@ TEST(ShareTime, MovesInProportionToWhatTheTimeIsFromTheTarget) {
 TEST(ShareTime, SeesTheMedianGatesTime) {
     ControlSettings settings = plainControl();
     settings.medianGate = true;
-    ControlState state = startControl(0.25, 2.0);
-    for (int i = 0; i < 3; ++i) feedBack(state, settings, shareFrame(1), 29.0);
-    feedBack(state, settings, shareFrame(1), 500.0);
+    ControlState state = startedAt(0.25, 2.0);
+    for (int i = 0; i < 3; ++i) feed(state, settings, shareFrame(1), 29.0);
+    feed(state, settings, shareFrame(1), 500.0);
     EXPECT_EQ(state.shareScale, 1.0);
     // The marginal time of the frames before, at this front's cost: 2 + 0.27 * 150 = 42.5 ms, whatever this
     // one took.
     FrameFeatures larger = shareFrame(1);
     larger.frontCost = 150.0;
-    feedBack(state, settings, larger, 10.0);
+    feed(state, settings, larger, 10.0);
     EXPECT_DOUBLE_EQ(state.shareScale, 0.99);
 }
 
@@ -216,24 +218,24 @@ TEST(ShareTime, KeepsToItsLimits) {
     ControlSettings settings = plainControl();
     settings.shareGain = settings.shareDrop = 0.5;
     settings.shareLimit = 4.0;
-    ControlState state = startControl(0.25, 2.0);
+    ControlState state = startedAt(0.25, 2.0);
     for (double expected : {1.5, 2.25, 3.375, 4.0, 4.0}) {
-        feedBack(state, settings, shareFrame(1), 10.0);
+        feed(state, settings, shareFrame(1), 10.0);
         EXPECT_EQ(state.shareScale, expected);
     }
     for (double expected : {2.0, 1.0, 0.5, 0.25, 0.125, 0.1, 0.1}) {
-        feedBack(state, settings, shareFrame(1), 100.0);
+        feed(state, settings, shareFrame(1), 100.0);
         EXPECT_EQ(state.shareScale, expected);
     }
     settings.shareLimit = 1.0;
     state.shareScale = 3.0;
-    feedBack(state, settings, shareFrame(0), 29.0);
+    feed(state, settings, shareFrame(0), 29.0);
     EXPECT_EQ(state.shareScale, 1.0) << "a lowered limit holds at once";
 }
 
 TEST(ShareTime, IsAMultipleOfTheTargetLessTheOverheadSoThatANewTargetActsAtOnce) {
     ControlSettings settings = plainControl();
-    ControlState state = startControl(0.25, 2.0);
+    ControlState state = startedAt(0.25, 2.0);
     state.shareScale = 1.5;
     EXPECT_EQ(shareMs(state, settings), 42.0);
     settings.targetMs = 12.0;
@@ -241,27 +243,27 @@ TEST(ShareTime, IsAMultipleOfTheTargetLessTheOverheadSoThatANewTargetActsAtOnce)
 }
 
 TEST(Feasible, IsNotAFrontOfNothingButRootsThatTakesLongerThanTheTarget) {
-    ControlState state = startControl(0.25, 2.0);
+    ControlState state = startedAt(0.25, 2.0);
     FrameFeatures features = shareFrame(0, true);
     features.estimateMs = 30.5;
-    feedBack(state, plainControl(), features, 30.5);
+    feed(state, plainControl(), features, 30.5);
     EXPECT_TRUE(state.infeasible);
     features.onlyRoots = false;
-    feedBack(state, plainControl(), features, 30.5);
+    feed(state, plainControl(), features, 30.5);
     EXPECT_FALSE(state.infeasible);
     features.onlyRoots = true;
     features.estimateMs = 30.0;
-    feedBack(state, plainControl(), features, 30.0);
+    feed(state, plainControl(), features, 30.0);
     EXPECT_FALSE(state.infeasible);
 }
 
 TEST(Feasible, IsTheSkyAgainAfterRootsThatWereNot) {
-    ControlState state = startControl(0.25, 2.0);
+    ControlState state = startedAt(0.25, 2.0);
     FrameFeatures features = shareFrame(0, true);
     features.estimateMs = 30.5;
-    feedBack(state, plainControl(), features, 30.5);
+    feed(state, plainControl(), features, 30.5);
     ASSERT_TRUE(state.infeasible);
-    feedBack(state, plainControl(), {.frame = 2, .frontCost = 0.0, .estimateMs = 2.0, .onlyRoots = true},
+    feed(state, plainControl(), {.frame = 2, .frontCost = 0.0, .estimateMs = 2.0, .onlyRoots = true},
              2.0);
     EXPECT_FALSE(state.infeasible);
 }
@@ -303,7 +305,7 @@ RC_GTEST_PROP(FeedBack, KeepsEveryNumberFiniteAndInItsLimits, ()) {
     const double odd[] = {
         0.0, -1.0, 1e-300, 1e300, HUGE_VAL, -HUGE_VAL, std::numeric_limits<double>::quiet_NaN(), 1.0};
     ControlState state =
-        startControl(std::pow(10.0, r.uniform(-7.0, 2.0)), r.index(3) == 0 ? 0.0 : r.uniform(0.0, 50.0));
+        startedAt(std::pow(10.0, r.uniform(-7.0, 2.0)), r.index(3) == 0 ? 0.0 : r.uniform(0.0, 50.0));
     for (int i = 0; i < 100; ++i) {
         const bool strange = r.index(4) == 0;
         const double actualMs = strange ? odd[r.index(std::size(odd))] : std::pow(10.0, r.uniform(-6.0, 5.0));
@@ -313,7 +315,7 @@ RC_GTEST_PROP(FeedBack, KeepsEveryNumberFiniteAndInItsLimits, ()) {
         features.refusedGroups = static_cast<std::uint32_t>(r.index(2));
         features.onlyRoots = r.index(2) == 0;
         features.shareFeedback = r.index(2) == 0;
-        feedBack(state, settings.control, features, actualMs);
+        feed(state, settings.control, features, actualMs);
         RC_ASSERT(state.vTimeMs >= state.calibratedMs / 8.0);
         RC_ASSERT(state.vTimeMs <= state.calibratedMs * 8.0);
         RC_ASSERT(state.shareScale >= 0.1);
@@ -325,14 +327,14 @@ RC_GTEST_PROP(FeedBack, KeepsEveryNumberFiniteAndInItsLimits, ()) {
 
 // Halving the unit of cost doubles every cost: v_time halves, and a front is estimated as before.
 TEST(RescaleCost, KeepsEstimates) {
-    ControlState state = startControl(2e-4, 3.0);
+    ControlState state = startedAt(2e-4, 3.0);
     state.vTimeMs = 4e-4;
-    state.recentMarginal = {1e-4, 2e-4, 3e-4};
+    state.marginal.recent = {1e-4, 2e-4, 3e-4};
     const double before = estimateMs(state, 1000.0);
     rescaleCost(state, 2.0);
     EXPECT_DOUBLE_EQ(estimateMs(state, 2000.0), before);
     EXPECT_DOUBLE_EQ(state.calibratedMs, 1e-4);
-    EXPECT_DOUBLE_EQ(state.recentMarginal[2], 1.5e-4);
+    EXPECT_DOUBLE_EQ(state.marginal.recent[2], 1.5e-4);
     const ControlState kept = state;
     for (const double ratio : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
         rescaleCost(state, ratio);

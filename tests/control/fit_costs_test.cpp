@@ -1,5 +1,5 @@
-// Constants of the cost model from fronts whose times are known: overhead 2 ms, 3 ms to fill a picture of view 0 and 9 ms
-// one of view 1, 0.25 ms an untextured and 0.75 ms a textured triangle. Then c_textured = 0.75, v_time = 1 ms.
+// Constants of the cost model from fronts whose times are known: overhead 2 ms, 3 ms to fill the half megapixel of view 0 and
+// 9 ms for the one and a half of view 1, 0.25 ms an untextured and 0.75 ms a textured triangle. Then c_textured = 0.75, v_time = 1 ms.
 #include "control/fit_costs.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,12 @@ namespace {
 constexpr std::size_t kRounds = 20;
 
 FrontTimes front(std::uint32_t view, std::uint64_t textured, std::uint64_t untextured) {
-    FrontTimes times{view, textured, untextured, 0.75 * double(textured) + 0.25 * double(untextured), {}, {}};
+    FrontTimes times;
+    times.view = view;
+    times.texturedTriangles = textured;
+    times.untexturedTriangles = untextured;
+    times.cost = 0.75 * double(textured) + 0.25 * double(untextured);
+    times.megapixels = view == 0 ? 0.5 : 1.5;
     const double fillMs = textured + untextured == 0 ? 0.0 : view == 0 ? 3.0 : 9.0;
     times.ms.assign(kRounds, 2.0 + fillMs + 0.75 * double(textured) + 0.25 * double(untextured));
     times.plainMs.assign(kRounds, 2.0 + fillMs + 0.25 * double(textured + untextured));
@@ -43,6 +48,7 @@ TEST(FitCosts, GivesBackTheConstantsOfExactTimes) {
     EXPECT_DOUBLE_EQ(fitOverhead(fronts)->value, 2.0);
     EXPECT_DOUBLE_EQ(fitCTextured(fronts)->value, 0.75);
     EXPECT_DOUBLE_EQ(fitVTime(fronts)->value, 1.0);
+    EXPECT_DOUBLE_EQ(fitFill(fronts)->value, 6.0);
     EXPECT_EQ(fitOverhead(fronts)->plusMinus, 0.0);
     EXPECT_NEAR(fitCTextured(fronts)->plusMinus, 0.0, 1e-12);
     EXPECT_NEAR(fitVTime(fronts)->plusMinus, 0.0, 1e-12);
@@ -100,6 +106,10 @@ TEST(FitCosts, SaysNothingWhereNothingCanBeTold) {
     EXPECT_FALSE(fitOverhead({}));
     EXPECT_FALSE(fitVTime({}));
     EXPECT_FALSE(fitCTextured({}));
+    EXPECT_FALSE(fitFill({}));
+    std::vector<FrontTimes> nothingCovered = knownFronts();
+    for (FrontTimes& f : nothingCovered) f.megapixels = 0.0;
+    EXPECT_FALSE(fitFill(nothingCovered));
     const std::vector<FrontTimes> noEmptyFront = {front(0, 16, 4)};
     EXPECT_FALSE(fitOverhead(noEmptyFront));
     EXPECT_FALSE(fitVTime(noEmptyFront)) << "one front has no slope";

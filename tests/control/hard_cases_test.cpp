@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "worlds/closed_loop.h"
+#include "worlds/feedback.h"
 
 namespace fb {
 namespace {
@@ -34,14 +35,14 @@ struct Held {
     bool operator==(const Held&) const = default;
 };
 Held held(const ControlState& s) {
-    return {s.vTimeMs, s.shareScale, s.recentCount};
+    return {s.vTimeMs, s.shareScale, s.marginal.count};
 }
 
 TEST(HardCase, Nr08TheSkyMovesNeitherVTimeNorShare) {
-    ControlState state = startControl(0.25, 2.0);
+    ControlState state = startedAt(0.25, 2.0);
     const Held before = held(state);
     for (double actualMs : {0.5, 2.0, 500.0}) {
-        feedBack(state, {}, {.frame = 1, .estimateMs = 2.0, .refusedGroups = 1, .shareFeedback = true},
+        feed(state, {}, {.frame = 1, .estimateMs = 2.0, .refusedGroups = 1, .shareFeedback = true},
                  actualMs);
         EXPECT_EQ(held(state), before);
     }
@@ -49,17 +50,17 @@ TEST(HardCase, Nr08TheSkyMovesNeitherVTimeNorShare) {
 
 TEST(HardCase, Nr09AStallOf500MsPassesTheMedianGateByAFactorOfOne) {
     const FrameFeatures front{.frame = 1, .frontCost = 100.0};
-    ControlState state = startControl(0.25, 0.0);
-    for (int i = 0; i < 3; ++i) feedBack(state, {}, front, 25.0);
-    feedBack(state, {}, front, 500.0);
+    ControlState state = startedAt(0.25, 0.0);
+    for (int i = 0; i < 5; ++i) feed(state, {}, front, 25.0);
+    feed(state, {}, front, 500.0);
     EXPECT_EQ(state.vTimeMs, 0.25);
-    feedBack(state, {}, front, 25.0);
+    feed(state, {}, front, 25.0);
     EXPECT_EQ(state.vTimeMs, 0.25);
     // Without the gate: 0.25 + 0.3 * (5 - 0.25), 6.7 times as much.
     ControlSettings ungated;
     ungated.medianGate = false;
     ungated.vTimeGain = 0.3;
-    feedBack(state, ungated, front, 500.0);
+    feed(state, ungated, front, 500.0);
     EXPECT_DOUBLE_EQ(state.vTimeMs, 1.675);
 }
 
@@ -86,15 +87,15 @@ TEST(HardCase, Nr09AStallSwitchesNothingInTheStreet) {
 
 TEST(HardCase, Nr10AMeasurementThatSaysNothingIsSkipped) {
     const FrameFeatures front{.frame = 1, .frontCost = 100.0, .refusedGroups = 1, .shareFeedback = true};
-    ControlState state = startControl(0.25, 2.0);
+    ControlState state = startedAt(0.25, 2.0);
     for (double actualMs : {2.0, 1.0, 0.0}) {
-        feedBack(state, {}, front, actualMs);  // not above the overhead: no v_time in it
+        feed(state, {}, front, actualMs);  // not above the overhead: no v_time in it
         EXPECT_EQ(state.vTimeMs, 0.25);
-        EXPECT_EQ(state.recentCount, 0u);
+        EXPECT_EQ(state.marginal.count, 0u);
     }
     const Held before = held(state);
     for (double actualMs : {-1.0, std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
-        feedBack(state, {}, front, actualMs);
+        feed(state, {}, front, actualMs);
         EXPECT_EQ(held(state), before);
     }
 }
@@ -102,13 +103,13 @@ TEST(HardCase, Nr10AMeasurementThatSaysNothingIsSkipped) {
 TEST(HardCase, Nr11AnOverheadAboveTheTargetLeavesATwentiethOfTheTarget) {
     ControlSettings settings;
     settings.targetMs = 10.0;
-    ControlState state = startControl(0.25, 15.0);
+    ControlState state = startedAt(0.25, 15.0);
     EXPECT_EQ(shareMs(state, settings), 0.5);
     state.shareScale = 0.1;
     EXPECT_DOUBLE_EQ(shareMs(state, settings), 0.05);
 
     ClosedLoop loop = street(PolicyId::lakhia, 0);
-    loop.control = startControl(loop.control.vTimeMs, 20.0);
+    loop.control = startedAt(loop.control.vTimeMs, 20.0);
     loop.settings.model.overheadMs = 20.0;
     loop.run(400);
     for (NodeId n : loop.walk.selection.front) EXPECT_LT(n, loop.walk.hierarchy.rootCount);
@@ -195,14 +196,14 @@ TEST(HardCase, Nr21TheMedianGateWorksBeyond32BitsOfMeasurements) {
     ControlSettings settings;
     settings.vTimeGain = 1.0;
     const FrameFeatures front{.frame = 1, .frontCost = 1.0};
-    ControlState state = startControl(1.0, 0.0);
-    state.recentCount = 0xfffffffeu;
-    state.recentMarginal = {1.0, 1.0, 1.0};
+    ControlState state = startedAt(1.0, 0.0);
+    state.marginal.count = 0xfffffffeu;
+    state.marginal.recent.fill(1.0);
     for (int i = 0; i < 4; ++i) {
-        feedBack(state, settings, front, 5.0);  // a stall
-        EXPECT_EQ(state.vTimeMs, 1.0) << "after measurement " << state.recentCount;
-        feedBack(state, settings, front, 1.0);
-        feedBack(state, settings, front, 1.0);
+        feed(state, settings, front, 5.0);  // a stall
+        EXPECT_EQ(state.vTimeMs, 1.0) << "after measurement " << state.marginal.count;
+        feed(state, settings, front, 1.0);
+        feed(state, settings, front, 1.0);
         EXPECT_EQ(state.vTimeMs, 1.0);
     }
 }

@@ -55,7 +55,7 @@ TEST(Effects, AreSwitchedOnAndOffByTheSettingWhateverTheScene) {
         const Knob* knob = findKnob("effects." + std::string(row.name));
         for (const bool called : {false, true}) {
             const SceneFacts scene = called ? SceneFacts{1, 1, 1.0} : SceneFacts{};
-            const FrameFacts frame{called ? 1.0 : 0.0, !called, called};
+            const FrameFacts frame{called ? 1.0 : 0.0, !called, called, called, called, called ? 0.5 : 0.0, called ? 2u : 1u, 1};
             ASSERT_EQ(row.calledFor(scene, frame), called) << row.name;
             knob->set(settings, 0.0);
             expectDecision(decideEffect(row, settings.effects, scene, frame), false,

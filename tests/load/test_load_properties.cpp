@@ -163,7 +163,8 @@ struct Oracle {
         if (known != priorities.end()) return known->second;
         double greatest = 0.0;
         for (const NodeId child : childrenOf(parent)) {
-            const NodeView seen = lookAtNode(h, child, walk.view, walk.select, walk.effects);
+            EffectWork work;
+            const NodeView seen = lookAtNode(h, child, walk.view, walk.select, walk.effects, work);
             greatest = std::max(greatest, seen.priority);
         }
         return priorities[parent] = hopeless(parent) ? 0.0 : std::min(greatest, priorityOf(h.parent[parent]));

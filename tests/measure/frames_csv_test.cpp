@@ -18,7 +18,8 @@ std::string designHeader(int levels) {
            "triangles,visited,toggles_up,toggles_down,pingpong,select_us,upload_bytes,resident_bytes,budget_"
            "bytes,"
            "pending_loads,evictions,err_px_max,err_px_mean,bound_by_time,bound_by_load,bound_by_hysteresis,"
-           "bound_by_leaf,bound_by_memory,front_hash\n";
+           "bound_by_leaf,bound_by_memory,front_hash,bound_by_view,bound_by_policy,refused_groups,"
+           "refused_need_ms,skipped_roots,fixed_ms\n";
 }
 
 TEST(FramesCsv, HasTheColumnsOfTheDesign) {
@@ -71,7 +72,12 @@ TEST(FramesCsv, WritesEachValueUnderItsName) {
     f.boundBy[static_cast<std::size_t>(BoundBy::hysteresis)] = 32;
     f.boundBy[static_cast<std::size_t>(BoundBy::leaf)] = 33;
     f.boundBy[static_cast<std::size_t>(BoundBy::memory)] = 34;
-    f.boundBy[static_cast<std::size_t>(BoundBy::policy)] = 99;
+    f.boundBy[static_cast<std::size_t>(BoundBy::view)] = 35;
+    f.boundBy[static_cast<std::size_t>(BoundBy::policy)] = 36;
+    f.refusedGroups = 37;
+    f.refusedNeedMs = 38.5;
+    f.skippedRoots = 39;
+    f.fixedMs = 40.25;
     f.frontHash = 0xdeadbeef00c0ffee;
     ReplayReport report;
     report.levels = 2;
@@ -79,7 +85,7 @@ TEST(FramesCsv, WritesEachValueUnderItsName) {
     EXPECT_EQ(framesCsv(report),
               designHeader(2) +
                   "1,2.5,33.25,4,-5.5,6,7,8,9.125,10,11,1e-05,13,14,15,16,17000000000,18,19,20,21,"
-                  "0.1,23,24,25,26,27,28,29,30,31,32,33,34,deadbeef00c0ffee\n");
+                  "0.1,23,24,25,26,27,28,29,30,31,32,33,34,deadbeef00c0ffee,35,36,37,38.5,39,40.25\n");
 }
 
 TEST(FramesCsv, LeavesTheFieldEmptyWhereTheNumberIsNotFinite) {
@@ -91,7 +97,7 @@ TEST(FramesCsv, LeavesTheFieldEmptyWhereTheNumberIsNotFinite) {
     report.frames = {f};
     EXPECT_EQ(framesCsv(report), designHeader(1) +
                                      "0,0,0,0,0,0,0,0,,,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,0,0,0,0,0,"
-                                     "0000000000000000\n");
+                                     "0000000000000000,0,0,0,0,0,0\n");
 }
 
 TEST(FramesCsv, WritesNumbersThatReadBackAsThemselves) {

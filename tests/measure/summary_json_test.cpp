@@ -30,7 +30,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
         "actual_ms", "infeasible_frames", "utilisation", "over_target_pct", "estimate_error_pct",
         "toggles",   "levels_share",  "front_nodes",     "triangles",
         "select_us", "visited",       "memory",          "loads",
-        "err_px",    "effects",       "front_hash"};
+        "skipped_roots", "refused",   "err_px",          "effects",       "front_hash"};
     EXPECT_EQ(keysOf(json), names);
     EXPECT_EQ(keysOf(json["actual_ms"]),
               (std::vector<std::string>{"mean", "sd", "p50", "p95", "p99", "max"}));
@@ -45,6 +45,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
               (std::vector<std::string>{"budget_bytes", "peak_bytes", "over_budget_frames"}));
     EXPECT_EQ(keysOf(json["loads"]), (std::vector<std::string>{"requested", "completed", "suspended",
                                                                "cancelled", "evicted", "bytes", "failed"}));
+    EXPECT_EQ(keysOf(json["refused"]), (std::vector<std::string>{"groups_mean", "need_ms_mean"}));
     EXPECT_EQ(keysOf(json["err_px"]), (std::vector<std::string>{"mean", "p95", "max"}));
     EXPECT_EQ(keysOf(json["effects"][0]),
               (std::vector<std::string>{"name", "mode", "active_frames", "us_mean"}));

@@ -78,7 +78,7 @@ TEST(Gate, SaysWhereTheValueCameFromWhatIsWrongAndWhatIsAllowed) {
               "--set: select.c_vis: \"much\" is not a value of it (it must be between 0 and 100)");
     EXPECT_EQ(errorOf(setFromText(settings, "select.policy", "lakhia2", "--set")),
               "--set: select.policy: \"lakhia2\" is not a value of it (it must be one of lakhia lakhia-naive "
-              "coarse full)");
+              "funkhouser funkhouser-incremental maciel-shirley erikson greedy screen-error coarse full frontbench)");
     EXPECT_EQ(errorOf(setFromText(settings, "select.hyst_band", "maybe", "--set")),
               "--set: select.hyst_band: \"maybe\" is not a value of it (it must be true or false)");
     EXPECT_EQ(errorOf(setFromText(settings, "select.c_viz", "1", "--set")),
