@@ -140,7 +140,8 @@ void feedBack(ControlState& state, const ControlSettings& settings, const FrameF
         // What this front takes when nothing stalls: a stall must not move the share time either (case 9).
         if (gated != measured) steadyMs = features.fixedMs + gated * features.frontCost;
     }
-    if (state.model == CostModel::leastSquares && actualMs > 0.0) learn(state.fit, features.work, actualMs, gateFrames(settings));
+    if (state.model == CostModel::leastSquares && actualMs > 0.0)
+        learn(state.fit, features.work, actualMs, gateFrames(settings));
     if (features.shareFeedback) feedBackShare(state, settings, features, steadyMs);
 }
 

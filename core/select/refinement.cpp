@@ -47,8 +47,12 @@ void RefinementTree::start(const SelectInput& input, SelectState& state, Selecti
     children.clear();
     gatherGroup(input, kNoNode, state, selection);
     children.assign(state.group.begin(), state.group.end());
+    state.shares.assign(state.priorities.begin(), state.priorities.end());  // adding a node takes the place of the group
     const std::size_t roots = children.size();
-    for (std::size_t i = 0; i < roots; ++i) add(children[i], kNoRefinement, input, state, selection);
+    for (std::size_t i = 0; i < roots; ++i) {
+        add(children[i], kNoRefinement, input, state, selection);
+        nodes.back().priority = state.shares[i];
+    }
 }
 
 void RefinementTree::expand(std::uint32_t index, const SelectInput& input, SelectState& state, Selection& selection) {

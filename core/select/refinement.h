@@ -24,6 +24,7 @@ struct Refinement {
     NodeId node = kNoNode;
     std::uint32_t parent = 0;  // index, or kNoRefinement for roots
     std::uint32_t firstChild = 0, childCount = 0;  // its visible children, in RefinementTree::children
+    double priority = 0.0;  // of roots alone
     double ownMs = 0.0;
     double extraMs = 0.0;  // time of the visible children less its own: may be below 0
     double gain = 0.0;     // benefit, always > 0

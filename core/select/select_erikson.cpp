@@ -52,9 +52,9 @@ void selectErikson(const SelectInput& input, SelectState& state, Selection& sele
         offer(end);
     }
     for (Refinement& r : tree.nodes) {
-        if (!r.usable || r.expanded) continue;
-        if (r.value > 0.0) ++selection.counters.refusedGroups;
-        else r.boundBy = BoundBy::policy;
+        if (r.expanded || r.childCount == 0) continue;
+        if (!(r.value > 0.0)) r.boundBy = BoundBy::policy;
+        if (r.boundBy == BoundBy::time) ++selection.counters.refusedGroups;
     }
     tree.finish(selection);
 }

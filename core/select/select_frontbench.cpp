@@ -15,7 +15,8 @@ constexpr double kEnterLess = 0.77, kEnterMore = 1.3;  // of the price: what com
 constexpr double kLeastWait = 0.03;                    // of refine_wait
 constexpr int kFasterWithRoom = 4;
 constexpr std::size_t kMostGivers = 16;
-constexpr double kEmergencyMargins = 3.0;
+constexpr double kEmergencyMargins = 3.0, kMostHighMark = 1.05;
+constexpr double kMostRatio = 1e6;
 constexpr double kUrgent = 4.0;
 constexpr double kPriceSeconds = 1.0;
 
@@ -29,7 +30,7 @@ class Trade {
         if (tree_.nodes.empty()) return;
         continueFromBefore();
         weighTotal();
-        if (totalMs_ > limitMs_) {
+        if (tooMuch_) {
             giveBack();
         } else {
             spend();
@@ -65,9 +66,13 @@ class Trade {
         const double marginMs = s_.margin * in_.time.residualMs;
         const double emergencyMs = std::max(s_.emergencyMark * in_.targetMs, in_.targetMs + kEmergencyMargins * marginMs);
         if (nowMs > emergencyMs) totalMs_ = std::max(totalMs_, nowMs);
-        scale_ = nowMs > 0.0 ? totalMs_ / nowMs : 1.0;
         middleMs_ = in_.targetMs - marginMs;
-        limitMs_ = std::max(s_.highMark * in_.targetMs, in_.targetMs + marginMs);
+        const double mostMs = std::max(kMostHighMark, s_.highMark) * in_.targetMs;
+        const double limitMs = std::clamp(in_.targetMs + marginMs, s_.highMark * in_.targetMs, mostMs);
+        // Time is spent only where it is there over seconds and right now.
+        tooMuch_ = totalMs_ > limitMs;
+        if (!tooMuch_) totalMs_ = std::max(totalMs_, nowMs);
+        scale_ = nowMs > 0.0 ? totalMs_ / nowMs : 1.0;
     }
 
     // Step 4.
@@ -115,9 +120,14 @@ class Trade {
             heap.pop_back();
             // A giver of an exchange takes its children's refinements with it.
             if (!tree_.isReached(tree_.nodes[best])) continue;
+            // The search is over, but for what takes no more time.
+            if (failed >= s_.refineRate && tree_.nodes[best].extraMs > 0.0) {
+                refuse(tree_.nodes[best], BoundBy::time);
+                continue;
+            }
             float& waited = state_.waited[tree_.nodes[best].node];
             const double value = tree_.nodes[best].value;
-            if (totalMs_ + extraMs(best) <= middleMs_) {
+            if (extraMs(best) <= 0.0 || totalMs_ + extraMs(best) <= middleMs_) {
                 // What brings far more than what was refused last does not wait; nor does anything while nothing is refused.
                 const bool isUrgent = value > kUrgent * s_.exchangeFactor * priceBefore;
                 waited += static_cast<float>(in_.dtSeconds);
@@ -141,15 +151,7 @@ class Trade {
             } else {
                 refuse(tree_.nodes[best], isWorthIt ? BoundBy::hysteresis : BoundBy::time);
             }
-            if (++failed >= s_.refineRate) break;
-        }
-        for (const std::uint32_t i : heap) {
-            if (!tree_.isReached(tree_.nodes[i])) continue;
-            if (tree_.nodes[i].extraMs > 0.0) {
-                refuse(tree_.nodes[i], BoundBy::time);
-            } else {
-                expand(i);  // takes no more time: nothing to weigh up
-            }
+            ++failed;
         }
         // It falls slowly: a moment without anybody refused says little.
         state_.price = std::max(bestRefused, priceBefore * kPriceSeconds / (kPriceSeconds + in_.dtSeconds));
@@ -173,14 +175,14 @@ class Trade {
             given += tree_.nodes[givers_[g]].value * extraMs(givers_[g]);
             if (freedMs < neededMs) continue;
             giverCount_ = g + 1;
-            return t.value * extraMs(taker) / given;
+            return given > 0.0 ? std::min(t.value * extraMs(taker) / given, kMostRatio) : kMostRatio;
         }
         return 0.0;
     }
     void insertGiver(std::uint32_t i) {
-        const ByValue before{tree_};  // higher value
+        const ByValue later{tree_, true};  // of the two that are given up, the lower value and then the lower id goes first
         std::size_t at = giverCount_;
-        while (at > 0 && before(i, givers_[at - 1])) --at;
+        while (at > 0 && later(givers_[at - 1], i)) --at;
         if (at == kMostGivers) return;
         giverCount_ = std::min(giverCount_ + 1, kMostGivers);
         for (std::size_t g = giverCount_ - 1; g > at; --g) givers_[g] = givers_[g - 1];
@@ -221,7 +223,8 @@ class Trade {
     SelectState& state_;
     Selection& selection_;
     RefinementTree& tree_;
-    double totalMs_ = 0.0, middleMs_ = 0.0, limitMs_ = 0.0, scale_ = 1.0;
+    double totalMs_ = 0.0, middleMs_ = 0.0, scale_ = 1.0;
+    bool tooMuch_ = false;
     std::array<std::uint32_t, kMostGivers> givers_{};
     std::size_t giverCount_ = 0;
 };

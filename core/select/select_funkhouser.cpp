@@ -5,16 +5,15 @@
 #include <algorithm>
 
 #include "select/select_policies.h"
-#include "select/sibling_group.h"
 
 namespace fb {
 namespace {
 
 constexpr double kLeastMs = 1e-3;
 
-double valueOfRoot(const SelectInput& input, NodeId root, double priority) {
-    const double benefit = priority * nodeCost(input.hierarchy, root, input.settings.cTextured);
-    return benefit / std::max(nodeTimeMs(input.time, input.hierarchy, root), kLeastMs);
+double valueOfRoot(const SelectInput& input, const Refinement& root) {
+    const double benefit = root.priority * nodeCost(input.hierarchy, root.node, input.settings.cTextured);
+    return benefit / std::max(root.ownMs, kLeastMs);
 }
 
 // A root's step and its refinement's are told apart by the lowest bit.
@@ -28,9 +27,8 @@ void selectFunkhouser(const SelectInput& input, SelectState& state, Selection& s
     tree.start(input, state, selection);
     const std::size_t roots = tree.nodes.size();
     state.shares.clear();  // values of the roots' own steps
-    gatherGroup(input, kNoNode, state, selection);
     for (std::size_t i = 0; i < roots; ++i) {
-        double value = valueOfRoot(input, tree.nodes[i].node, state.priorities[i]);
+        double value = valueOfRoot(input, tree.nodes[i]);
         if (!state.wasSeen(tree.nodes[i].node, input.frame)) value *= 1.0 - input.settings.switchPenalty;
         state.shares.push_back(value);
     }

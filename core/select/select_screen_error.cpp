@@ -10,11 +10,11 @@ void selectScreenError(const SelectInput& input, SelectState& state, Selection& 
     tree.start(input, state, selection);
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
         const NodeId node = tree.nodes[i].node;
-        if (!tree.nodes[i].usable) continue;
-        if (nodeErrorPixels(input.hierarchy, node, input.view) > input.settings.pixelThreshold) {
-            tree.expand(i, input, state, selection);
-        } else {
+        if (tree.nodes[i].childCount == 0) continue;
+        if (!(nodeErrorPixels(input.hierarchy, node, input.view) > input.settings.pixelThreshold)) {
             tree.nodes[i].boundBy = BoundBy::policy;
+        } else if (tree.nodes[i].usable) {
+            tree.expand(i, input, state, selection);
         }
     }
     tree.finish(selection);

@@ -1,10 +1,13 @@
 #include "select/slices.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fb {
 namespace {
 
+// Of the time of all leaves below: exactly as much would leave counters where they are, and what fits refused.
+constexpr double kCapFactor = 1.25;
 constexpr int kHalvings = 60;
 
 // Triangles of all leaves below each node, once a scene: children stand after their parents.
@@ -43,7 +46,7 @@ void redistribute(const SelectInput& input, double shareMs, SelectState& state, 
     double needs = 0.0, most = 0.0;
     for (const NodeId n : state.group) {  // scratch behind what is there: need and cap of each
         const double need = nodeTimeMs(input.time, input.hierarchy, n);
-        const double cap = std::max(need, leavesMs(input.time, state.leaves, n));
+        const double cap = std::max(need, kCapFactor * leavesMs(input.time, state.leaves, n));
         into.push_back(need);
         into.push_back(cap);
         needs += need;
@@ -57,11 +60,16 @@ void redistribute(const SelectInput& input, double shareMs, SelectState& state, 
             (sumAt(middle, state, into, first) < shareMs ? low : high) = middle;
         }
     }
+    // Between the last two lambdas the sum is as good as linear.
+    const double atLow = sumAt(low, state, into, first), atHigh = sumAt(high, state, into, first);
+    const double part = atHigh > atLow ? (shareMs - atLow) / (atHigh - atLow) : 1.0;
     for (std::size_t i = 0; i < count; ++i) {
         const double need = into[first + 2 * i], cap = into[first + 2 * i + 1];
+        const double lower = std::clamp(low * state.priorities[i], need, cap);
+        const double upper = std::clamp(high * state.priorities[i], need, cap);
         into[first + i] = needs >= shareMs ? shareMs * need / needs
                           : most <= shareMs ? shareMs * cap / most
-                                            : std::clamp(high * state.priorities[i], need, cap);
+                                            : std::lerp(lower, upper, part);
     }
     into.resize(first + count);
 }

@@ -3,13 +3,14 @@
 #include "control/control.h"
 #include "control/model_device.h"
 #include "select/count_allocations.h"
+#include "select/coverage.h"
 #include "worlds/random_worlds.h"
 #include "worlds/tiny_walk.h"
 
 namespace fb {
 namespace {
 
-class Allocations : public testing::TestWithParam<PolicyId> {};
+class Allocations : public testing::TestWithParam<Policy> {};
 
 TEST_P(Allocations, AreCounted) {
     const std::uint64_t before = allocationsSoFar();
@@ -23,20 +24,34 @@ void frame(TinyWalk& walk, ControlState& control, FeatureRing& ring, const Setti
     const double t = 0.1 * static_cast<double>(walk.frame % 60);
     const Camera camera = lookAt({20 * std::cos(t), 3, 20 * std::sin(t)}, {0, 0, 0}, {0, 1, 0});
     walk.view = makeView(camera, {1, 0, 0}, 160, 90);
-    walk.effects = decideEffects(settings.effects, facts, {glm::length(walk.view.velocity), false, true});
+    walk.effects = decideEffects(settings.effects, facts, {glm::length(walk.view.velocity), false, true, true, true, 1.0, 2, 1});
     walk.shareMs = shareMs(control, settings.control);
-    walk.vTimeMs = control.vTimeMs;
     ++walk.frame;
-    selectFront(
-        {walk.hierarchy, walk.loaded, walk.refused, walk.view, walk.settings, walk.effects, walk.vTimeMs,
-         control.overheadMs, walk.shareMs, settings.control.targetMs, walk.dtSeconds, walk.frame},
-        walk.state, walk.selection);
+    SelectInput input = walk.input();
+    input.targetMs = settings.control.targetMs;
+    const TexturePressure pressure{3 << 20, 2 << 20};
+    std::vector<NodeId>& roots = walk.state.group;
+    roots.clear();
+    for (NodeId n = 0; n < walk.hierarchy.rootCount; ++n) roots.push_back(n);
+    const double megapixels = coveredMegapixels(walk.hierarchy, roots, walk.view);
+    passTime(control, settings.control, walk.dtSeconds);
+    input.time = timeModel(control, settings.control, walk.settings.cTextured, megapixels, &pressure);
+    selectFront(input, walk.state, walk.selection);
     hash = chainFrontHash(hash, walk.selection.front);
     const Selection& s = walk.selection;
-    ring.push(
-        {walk.frame, s.frontCost, estimateMs(control, s.frontCost), s.counters.refusedGroups, false, true});
-    const double actualMs = modelFrameMs(
-        settings.model, {s.texturedTriangles, s.triangles - s.texturedTriangles, s.front.size()}, walk.frame);
+    FrameFeatures made;
+    made.frame = walk.frame;
+    made.frontCost = s.frontCost;
+    made.fixedMs = input.time.fixedMs;
+    made.estimateMs = s.estimateMs;
+    made.work = {1e-3 * static_cast<double>(s.triangles), 0.0, static_cast<double>(s.front.size()), megapixels, 1.0};
+    made.refusedGroups = s.counters.refusedGroups;
+    made.shareFeedback = true;
+    ring.push(made);
+    ModelCounts counts;
+    const FrameWork work = modelWork(settings.model, walk.hierarchy, s.front, megapixels, 1000, counts);
+    const double actualMs = modelFrameMs(settings.model, work, walk.frame, counts);
+    walk.measured = {s.triangles, actualMs};
     if (const FrameFeatures* features = ring.find(walk.frame))
         feedBack(control, settings.control, *features, actualMs);
 }
@@ -46,15 +61,21 @@ TEST_P(Allocations, AreNoneInAFrameAfterTheFirstRound) {
     Hierarchy world = randomWorld(r);
     while (world.size() < 40) world = randomWorld(r);
     const SceneFacts facts = gatherSceneFacts(world);
-    TinyWalk walk(std::move(world), plainSettings(GetParam()));
+    TinyWalk walk(std::move(world), plainSettings(GetParam().id));
     Settings settings;
-    ControlState control = startControl(0.02, 2.0);
+    // Everything that may be switched on is.
+    settings.control.costModel = CostModel::leastSquares;
+    settings.effects.redistribution = EffectMode::on;
+    settings.model.spreadPct = settings.model.driftPct = settings.model.stallPct = settings.model.textureMemoryMiB = 5.0;
+    ControlState control = startControl(settings.control, {0.02, 2.0, 1.0}, 0.5);
     FeatureRing ring;
     std::uint64_t hash = 0;
     // One round with every leaf: what the vectors may ever have to hold.
     walk.settings.policy = PolicyId::full;
     for (int i = 0; i < 60; ++i) frame(walk, control, ring, settings, facts, hash);
-    walk.settings.policy = GetParam();
+    // And rounds of its own, for what it keeps beside that.
+    walk.settings.policy = GetParam().id;
+    for (int i = 0; i < 120; ++i) frame(walk, control, ring, settings, facts, hash);
     std::uint64_t mostDrawn = 0;
     const std::uint64_t before = allocationsSoFar();
     for (int i = 0; i < 60; ++i) {
@@ -66,10 +87,9 @@ TEST_P(Allocations, AreNoneInAFrameAfterTheFirstRound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, Allocations,
-                         testing::Values(PolicyId::lakhia, PolicyId::lakhiaNaive, PolicyId::coarse,
-                                         PolicyId::full),
+                         testing::ValuesIn(policies()),
                          [](const auto& row) {
-                             std::string name(policyOf(row.param).name);
+                             std::string name(row.param.name);
                              std::erase(name, '-');
                              return name;
                          });

@@ -98,9 +98,7 @@ void compareWorld(std::uint64_t seed, PolicyId policy, Tally& tally) {
         changeResidency(r, walk);
         moveCamera(r, walk, r.index(25) == 0);
         walk.step();
-        const SlowFrame expected = slow.step({walk.hierarchy, walk.loaded, walk.refused, walk.view,
-                                              walk.settings, walk.effects, walk.vTimeMs, walk.overheadMs,
-                                              walk.shareMs, walk.targetMs, walk.dtSeconds, walk.frame});
+        const SlowFrame expected = slow.step(walk.input());
         compareFrame(walk, slow, expected, tally);
         if (testing::Test::HasFatalFailure()) return;
     }

@@ -126,7 +126,7 @@ TEST(Policies, HaveTheNamesOfTheKnobInItsOrder) {
 TEST(Policies, ReasonsHaveTheNamesOfTheReport) {
     std::set<std::string_view> names;
     for (int i = 0; i < kBoundByCount; ++i) names.insert(boundByName(static_cast<BoundBy>(i)));
-    EXPECT_EQ(names, (std::set<std::string_view>{"leaf", "time", "load", "hysteresis", "memory", "policy"}));
+    EXPECT_EQ(names, (std::set<std::string_view>{"leaf", "time", "load", "hysteresis", "memory", "policy", "view"}));
     EXPECT_EQ(boundByName(BoundBy::hysteresis), "hysteresis");
     EXPECT_EQ(boundByName(BoundBy::memory), "memory");
 }

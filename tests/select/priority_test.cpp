@@ -28,7 +28,8 @@ SelectSettings usual() {
 // One node; c_textured = 0.5, so that `cost` is its cost.
 NodeView look(const TinyNode& node, const View& view, ActiveEffects effects = {},
               const SelectSettings& settings = usual()) {
-    return lookAtNode(makeWorld({node}), 0, view, settings, effects);
+    EffectWork work;
+    return lookAtNode(makeWorld({node}), 0, view, settings, effects, work);
 }
 
 ActiveEffects with(Effect effect) {
@@ -57,7 +58,8 @@ TEST(Priority, WeighsTexturedAndUntexturedTrianglesByCTextured) {
     SelectSettings settings = usual();
     settings.cVis = 0.0;
     settings.cTextured = 0.127;  // 12.7 + 873
-    EXPECT_DOUBLE_EQ(lookAtNode(h, 0, tinyView(), settings, {}).priority, 8.0 / 885.7);
+    EffectWork work;
+    EXPECT_DOUBLE_EQ(lookAtNode(h, 0, tinyView(), settings, {}, work).priority, 8.0 / 885.7);
 }
 
 TEST(Priority, TakesTheSmallestDistanceForAnEyeInsideTheBox) {
@@ -152,7 +154,8 @@ RC_GTEST_PROP(Priority, EffectsThatAreOffDoNoArithmetic, ()) {
                         .box = boxOf(low, low + glm::vec3(3)),
                         .normal = {nan, nan, nan}};
     const View view = makeView(tinyCamera(), V(nan, nan, nan), 100, 100);
-    const NodeView seen = lookAtNode(makeWorld({node}), 0, view, settings, {});
+    EffectWork work;
+    const NodeView seen = lookAtNode(makeWorld({node}), 0, view, settings, {}, work);
     const double d = std::max(settings.minDistance, Box3d{V(node.box.min), V(node.box.max)}.distance(V(0)));
     const double vis = 1.0 + settings.cVis * (meetsView(view, node.box) ? 1.0 : 0.0);
     RC_ASSERT(seen.distance == d);
@@ -181,7 +184,8 @@ RC_GTEST_PROP(Priority, IsFiniteAndAboveZeroWhateverTheNodeHolds, ()) {
     const TinyNode node{
         .cost = static_cast<std::uint32_t>(r.index(3)), .benefit = odd(), .normal = {odd(), odd(), odd()}};
     const View view = makeView(tinyCamera(), V(odd(), odd(), odd()), 100, 100);
-    const NodeView seen = lookAtNode(makeWorld({node}), 0, view, settings, effects);
+    EffectWork work;
+    const NodeView seen = lookAtNode(makeWorld({node}), 0, view, settings, effects, work);
     RC_ASSERT(std::isfinite(seen.priority));
     RC_ASSERT(seen.priority > 0.0);
     RC_ASSERT(seen.distance >= settings.minDistance);

@@ -11,8 +11,6 @@
 namespace fb {
 namespace {
 
-constexpr PolicyId kAll[] = {PolicyId::lakhia, PolicyId::lakhiaNaive, PolicyId::coarse, PolicyId::full};
-
 // From nothing to absurd: 0, or ten to a power between -9 and 6.
 double anyTime(Random& r) {
     return r.index(10) == 0 ? 0.0 : std::pow(10.0, r.uniform(-9.0, 6.0));
@@ -40,7 +38,7 @@ struct Trial {
     }
     void nextFrame() {
         if (random.index(4) == 0) turn();
-        if (random.index(10) == 0) walk.settings.policy = kAll[random.index(std::size(kAll))];
+        if (random.index(10) == 0) walk.settings.policy = policies()[random.index(policies().size())].id;
         for (bool& on : walk.effects.on) on = random.index(2) == 0;
         for (NodeId n = walk.hierarchy.rootCount; n < walk.hierarchy.size(); ++n) {
             walk.loaded[n] = random.index(5) != 0 ? 1 : 0;
@@ -49,6 +47,11 @@ struct Trial {
         walk.vTimeMs = anyTime(random);
         walk.shareMs = anyTime(random) - anyTime(random);
         walk.targetMs = anyTime(random);
+        walk.overheadMs = anyTime(random);
+        walk.slowRatio = random.uniform(1.0 / 8.0, 8.0);
+        walk.residualMs = anyTime(random);
+        walk.textureMsPerByte = random.index(2) == 0 ? 0.0 : anyTime(random);
+        walk.measured = {random.index(2) == 0 ? 0 : random.index(100000), anyTime(random)};
         walk.dtSeconds = random.uniform(0.0, 0.1);
         walk.step();
     }
@@ -69,7 +72,21 @@ void checkFront(const TinyWalk& walk) {
     const Selection& s = walk.selection;
     const std::set<NodeId> front(s.front.begin(), s.front.end());
     RC_ASSERT(front.size() == s.front.size());
-    for (NodeId root = 0; root < walk.hierarchy.rootCount; ++root) checkPaths(walk, front, root, 0);
+    // One policy may leave roots out, with all that is below them.
+    std::set<NodeId> reached;
+    for (const Reached& r : s.reached) reached.insert(r.node);
+    std::uint32_t skipped = 0;
+    for (NodeId root = 0; root < walk.hierarchy.rootCount; ++root) {
+        if (reached.contains(root)) {
+            checkPaths(walk, front, root, 0);
+        } else if (meetsView(walk.view, walk.hierarchy.bounds[root])) {
+            ++skipped;
+        }
+    }
+    RC_ASSERT(s.counters.skippedRoots == skipped);
+    if (walk.settings.policy != PolicyId::funkhouser) RC_ASSERT(skipped == 0u);
+    RC_ASSERT(std::isfinite(s.estimateMs));
+    for (const Reached& r : s.reached) RC_ASSERT((std::isfinite(r.needMs) && std::isfinite(r.hadMs)));
     double cost = 0.0;
     std::uint64_t triangles = 0, bound = 0;
     for (NodeId n : s.front) {
@@ -84,13 +101,14 @@ void checkFront(const TinyWalk& walk) {
     RC_ASSERT(std::abs(s.frontCost - cost) <= 1e-9 * cost);
     RC_ASSERT(s.triangles == triangles);
     RC_ASSERT(bound == s.front.size());
-    RC_ASSERT(s.counters.visited <= walk.hierarchy.size());
+    // Two of them look at what they reach twice.
+    RC_ASSERT(s.counters.visited <= 2 * walk.hierarchy.size() + walk.hierarchy.rootCount);
 }
 
 void checkNumbers(const TinyWalk& walk) {
     for (double h : walk.state.hysteresis) RC_ASSERT(std::abs(h) <= walk.settings.hystLimit);
     RC_ASSERT(walk.counters().repairedCounters == 0u);
-    if (walk.settings.policy == PolicyId::coarse) return;
+    if (!policyOf(walk.settings.policy).usesShareTime) return;
     // The queue of this frame: a slice for each reached node.
     for (double slice : walk.state.shares) {
         RC_ASSERT(std::isfinite(slice));
@@ -148,6 +166,11 @@ RC_GTEST_PROP(EveryPolicy, GivesTheSameFrontsForTheSameInput, ()) {
     b.walk.state.queue.assign(50, 3);  // what scratch memory holds must not matter
     b.walk.state.group.assign(7, 1);
     b.walk.state.priorities.assign(9, -1.0);
+    b.walk.state.slices.assign(9, -1.0);
+    b.walk.state.marks.assign(9, 2);
+    b.walk.state.heap.assign(9, 7);
+    b.walk.state.heapDown.assign(9, 7);
+    b.walk.state.tree.nodes.resize(9);
     std::uint64_t hashA = 0, hashB = 0;
     for (int i = 0; i < 15; ++i) {
         a.nextFrame();

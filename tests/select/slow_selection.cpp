@@ -1,61 +1,16 @@
 #include "select/slow_selection.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "select/slow_look.h"
 
 namespace fb {
 namespace {
 
-// How far all of the box lies outside the one side of the view that it misses most (item 2).
-double slowOutside(const View& view, const Box3f& box) {
-    const double up = std::tan(view.camera.fovyRadians / 2.0);
-    const double across = up * view.width / view.height;
-    double leftOf = INFINITY, rightOf = INFINITY, below = INFINITY, above = INFINITY, before = INFINITY;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                           corner & 4 ? box.max.z : box.min.z);
-        const glm::dvec3 q = glm::conjugate(view.camera.orientation) * (p - view.camera.eye);
-        const double depth = -q.z;
-        leftOf = std::min(leftOf, (-q.x - across * depth) / std::sqrt(1.0 + across * across));
-        rightOf = std::min(rightOf, (q.x - across * depth) / std::sqrt(1.0 + across * across));
-        below = std::min(below, (-q.y - up * depth) / std::sqrt(1.0 + up * up));
-        above = std::min(above, (q.y - up * depth) / std::sqrt(1.0 + up * up));
-        before = std::min(before, view.camera.nearMetres - depth);
-    }
-    return std::max({0.0, leftOf, rightOf, below, above, before});
-}
-
-double slowDistance(const glm::dvec3& eye, const Box3f& box) {
-    double squared = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double low = box.min[axis], high = box.max[axis];
-        if (eye[axis] < low) squared += (low - eye[axis]) * (low - eye[axis]);
-        if (eye[axis] > high) squared += (eye[axis] - high) * (eye[axis] - high);
-    }
-    return std::sqrt(squared);
-}
-
-double slowCost(const SelectInput& in, NodeId n) {
-    const double w = in.settings.cTextured;
-    return std::max(1.0,
-                    in.hierarchy.texturedTriangles[n] * w + in.hierarchy.untexturedTriangles[n] * (1.0 - w));
-}
-
-double slowPriority(const SelectInput& in, NodeId n, double outside) {
-    const SelectSettings& s = in.settings;
-    glm::dvec3 eye = in.view.camera.eye;
-    if (in.effects[Effect::velocityLead]) eye += s.lookAhead * in.view.velocity;
-    const double d = std::max(s.minDistance, slowDistance(eye, in.hierarchy.bounds[n]));
-    double fv = outside > 0.0 ? 0.0 : 1.0;
-    if (outside > 0.0 && in.effects[Effect::frustumFalloff])
-        fv = std::max(0.0, 1.0 - outside / s.frustumFalloff);
-    double fore = 1.0;
-    if (in.effects[Effect::foreshortening]) {
-        const glm::vec3 a = in.hierarchy.averageNormal[n];
-        const glm::dvec3 towardViewer = in.view.camera.orientation * glm::dvec3(0, 0, 1);
-        fore = std::max(0.05,
-                        1.0 + s.cFore * (towardViewer.x * a.x + towardViewer.y * a.y + towardViewer.z * a.z));
-    }
-    return in.hierarchy.staticBenefit[n] * (1.0 + s.cVis * fv) * fore / (slowCost(in, n) * d * d);
+// v_time is what the least node takes.
+double slowNeed(const SelectInput& in, NodeId n) {
+    return in.time.leastMs * slowCost(in, n);
 }
 
 }  // namespace
@@ -76,14 +31,65 @@ std::vector<SlowSelection::Member> SlowSelection::visibleOf(const SelectInput& i
     return group;
 }
 
+namespace {
+
+double slowLeavesNeed(const SelectInput& in, NodeId n) {
+    const Hierarchy& h = in.hierarchy;
+    const double w = in.settings.cTextured;
+    if (h.childCount[n] == 0)
+        return in.time.leastMs * (h.texturedTriangles[n] * w + h.untexturedTriangles[n] * (1.0 - w));
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < h.childCount[n]; ++i) sum += slowLeavesNeed(in, h.firstChild[n] + i);
+    return sum;
+}
+
+}  // namespace
+
+// Thesis eq. 4.1, or 3.1 Redistribution: all lambdas at which a slice begins or ends to grow are tried one after the other.
+std::vector<double> SlowSelection::slicesOf(const SelectInput& in, const std::vector<Member>& group, double shareMs) {
+    std::vector<double> slices, needs, caps, lambdas = {0.0};
+    double all = 0.0, needed = 0.0, usable = 0.0;
+    for (const Member& m : group) {
+        all += m.priority;
+        needs.push_back(slowNeed(in, m.node));
+        caps.push_back(std::max(needs.back(), 1.25 * slowLeavesNeed(in, m.node)));
+        needed += needs.back();
+        usable += caps.back();
+        lambdas.push_back(needs.back() / m.priority);
+        lambdas.push_back(caps.back() / m.priority);
+    }
+    const auto sliceAt = [&](std::size_t i, double lambda) {
+        return std::max(needs[i], std::min(caps[i], lambda * group[i].priority));
+    };
+    const auto sumAt = [&](double lambda) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < group.size(); ++i) sum += sliceAt(i, lambda);
+        return sum;
+    };
+    std::sort(lambdas.begin(), lambdas.end());
+    std::size_t above = 1;
+    while (above + 1 < lambdas.size() && sumAt(lambdas[above]) < shareMs) ++above;
+    const double low = lambdas[above - 1], high = lambdas[above];
+    const double rise = sumAt(high) - sumAt(low);
+    const double lambda = rise > 0.0 ? low + (high - low) * (shareMs - sumAt(low)) / rise : high;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        if (!in.effects[Effect::redistribution]) slices.push_back(shareMs * group[i].priority / all);
+        else if (needed >= shareMs) slices.push_back(shareMs * needs[i] / needed);
+        else if (usable <= shareMs) slices.push_back(shareMs * caps[i] / usable);
+        else slices.push_back(sliceAt(i, lambda));
+    }
+    return slices;
+}
+
 // Item 4; gives cumHyst.
 double SlowSelection::moveCounters(const SelectInput& in, const std::vector<Member>& group, double shareMs) {
     const SelectSettings& s = in.settings;
-    double all = 0.0, cumHyst = 0.0;
-    for (const Member& m : group) all += m.priority;
-    for (const Member& m : group) {
-        const double slice = shareMs * m.priority / all;
-        const double need = in.vTimeMs * slowCost(in, m.node);
+    double cumHyst = 0.0;
+    const std::vector<double> slices = slicesOf(in, group, shareMs);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        const Member& m = group[i];
+        const double slice = slices[i];
+        const double need = slowNeed(in, m.node);
         const auto [at, isNew] = counters.try_emplace(m.node, s.hystStart * s.hystSwitch);
         double& h = at->second;
         h += s.hystUnit * (slice - need) / need;
@@ -99,39 +105,24 @@ void SlowSelection::draw(NodeId node, BoundBy reason, SlowFrame& frame) {
     frame.boundBy[node] = reason;
 }
 
-void SlowSelection::record(const SelectInput& in, NodeId node, bool fine, SlowFrame& frame) {
-    fineNow_[node] = fine;
-    const auto before = fineBefore_.find(node);
-    if (before == fineBefore_.end() || before->second == fine) return;
-    ++(fine ? frame.togglesUp : frame.togglesDown);
-    const auto last = lastSwitch_.find(node);
-    if (last != lastSwitch_.end() && last->second.up != fine && in.frame - last->second.frame <= 35)
-        ++frame.pingPongs;
-    lastSwitch_[node] = {in.frame, fine};
-}
-
 // Item 5.
 void SlowSelection::visit(const SelectInput& in, NodeId n, double shareMs, SlowFrame& frame) {
     const Hierarchy& h = in.hierarchy;
     if (h.childCount[n] == 0) return draw(n, BoundBy::leaf, frame);
     const std::vector<Member> group = visibleOf(in, h.firstChild[n], h.childCount[n], frame);
-    const auto before = fineBefore_.find(n);
     if (group.empty()) {
-        if (before != fineBefore_.end()) fineNow_[n] = before->second;
-        return draw(n, BoundBy::leaf, frame);
+        switches_.keep(n);
+        return draw(n, BoundBy::view, frame);
     }
-    double all = 0.0, need = 0.0;
-    for (const Member& m : group) {
-        all += m.priority;
-        need += in.vTimeMs * slowCost(in, m.node);
-    }
+    double need = 0.0;
+    for (const Member& m : group) need += slowNeed(in, m.node);
     bool accepted = false;
     if (in.settings.policy == PolicyId::lakhiaNaive) {
         accepted = shareMs > need;
     } else {
         const double cumHyst = moveCounters(in, group, shareMs);
         accepted = cumHyst >= 0.0;
-        if (cumHyst == 0.0 && in.settings.hystBand) accepted = before != fineBefore_.end() && before->second;
+        if (cumHyst == 0.0 && in.settings.hystBand) accepted = switches_.wasFine(n);
     }
     std::set<NodeId> needed;
     for (const Member& m : group) needed.insert(m.node);
@@ -144,26 +135,25 @@ void SlowSelection::visit(const SelectInput& in, NodeId n, double shareMs, SlowF
         if (in.memoryRefused[child] != 0) noRoom = true;
     }
     if (loaded && !accepted) ++frame.refusedGroups;
-    record(in, n, accepted && loaded, frame);
+    switches_.record(in.frame, n, accepted && loaded, frame);
     if (!accepted) {
         const bool time = need > shareMs || in.settings.policy == PolicyId::lakhiaNaive;
         return draw(n, time ? BoundBy::time : BoundBy::hysteresis, frame);
     }
     if (!loaded) return draw(n, noRoom ? BoundBy::memory : BoundBy::load, frame);
-    for (const Member& m : group) visit(in, m.node, shareMs * m.priority / all, frame);
+    const std::vector<double> slices = slicesOf(in, group, shareMs);
+    for (std::size_t i = 0; i < group.size(); ++i) visit(in, group[i].node, slices[i], frame);
 }
 
 // Items 3 and 6.
 SlowFrame SlowSelection::step(const SelectInput& in) {
     SlowFrame frame;
-    fineNow_.clear();
     const double share = std::max(in.shareMs, 0.05 * in.targetMs);
     const std::vector<Member> roots = visibleOf(in, 0, in.hierarchy.rootCount, frame);
-    double all = 0.0;
-    for (const Member& m : roots) all += m.priority;
     if (in.settings.policy == PolicyId::lakhia) moveCounters(in, roots, share);
-    for (const Member& m : roots) visit(in, m.node, share * m.priority / all, frame);
-    fineBefore_ = fineNow_;
+    const std::vector<double> slices = slicesOf(in, roots, share);
+    for (std::size_t i = 0; i < roots.size(); ++i) visit(in, roots[i].node, slices[i], frame);
+    switches_.endFrame();
     return frame;
 }
 

@@ -5,17 +5,10 @@
 #pragma once
 
 #include <map>
-#include <set>
 
-#include "select/select.h"
+#include "select/slow_frame.h"
 
 namespace fb {
-
-struct SlowFrame {
-    std::set<NodeId> front;
-    std::map<NodeId, BoundBy> boundBy;
-    std::uint32_t togglesUp = 0, togglesDown = 0, pingPongs = 0, refusedGroups = 0, repairedPriorities = 0;
-};
 
 class SlowSelection {
   public:
@@ -29,17 +22,12 @@ class SlowSelection {
     };
     std::vector<Member> visibleOf(const SelectInput& input, NodeId first, std::uint32_t count,
                                   SlowFrame& frame);
+    static std::vector<double> slicesOf(const SelectInput& input, const std::vector<Member>& group, double shareMs);
     double moveCounters(const SelectInput& input, const std::vector<Member>& group, double shareMs);
     void visit(const SelectInput& input, NodeId node, double shareMs, SlowFrame& frame);
     void draw(NodeId node, BoundBy reason, SlowFrame& frame);
-    void record(const SelectInput& input, NodeId node, bool fine, SlowFrame& frame);
 
-    struct Switch {
-        std::uint64_t frame;
-        bool up;
-    };
-    std::map<NodeId, bool> fineBefore_, fineNow_;  // of the last frame and of this one
-    std::map<NodeId, Switch> lastSwitch_;
+    SlowSwitches switches_;
 };
 
 }  // namespace fb

@@ -88,7 +88,7 @@ TEST(Toggles, AParentDrawnForUnseenChildrenIsNoSwitch) {
     walk.view = viewBackward();
     EXPECT_EQ(stepAt(walk, kFine), (Toggles{0, 0, 0}));
     EXPECT_EQ(walk.selection.front, (std::vector<NodeId>{0}));
-    EXPECT_EQ(walk.boundBy(0), BoundBy::leaf);
+    EXPECT_EQ(walk.boundBy(0), BoundBy::view);
     walk.view = tinyView();
     EXPECT_EQ(stepAt(walk, kFine), (Toggles{0, 0, 0}));
     EXPECT_EQ(walk.selection.front, (std::vector<NodeId>{1, 2}));

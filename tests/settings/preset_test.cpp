@@ -39,7 +39,7 @@ TEST(ParsePreset, TakesWhatItNamesAndLeavesTheRestAtTheDefaults) {
     EXPECT_EQ(preset->name, "mine");
     EXPECT_EQ(preset->about, "for a test");
     EXPECT_EQ(presetDifferences(Settings{}, preset->settings),
-              (std::vector<std::string>{"build.level_factor: 4 -> 8", "select.policy: lakhia -> full",
+              (std::vector<std::string>{"build.level_factor: 4 -> 8", "select.policy: frontbench -> full",
                                         "select.c_vis: 1.275 -> 2", "select.hyst_band: true -> false"}));
 }
 
@@ -95,7 +95,7 @@ TEST(ParsePreset, NamesTheLineOfAValueOfTheWrongType) {
     expectWrong("c_vis = [1]", "c_vis: has the wrong type");
     expectWrong("c_vis = 2004-01-01", "c_vis: has the wrong type");
     expectWrong("hyst_band = 1", "hyst_band: has the wrong type (it should be like true)");
-    expectWrong("policy = 1", "policy: has the wrong type (it should be like \"lakhia\")");
+    expectWrong("policy = 1", "policy: has the wrong type (it should be like \"frontbench\")");
     expectError("about = 7\n", "p.toml: line 1: about: has the wrong type (it should be a text in quotes)");
 }
 
@@ -284,7 +284,7 @@ TEST_F(PresetFolders, SayWhatThereIsWhenANameIsNotKnown) {
     ASSERT_FALSE(preset);
     EXPECT_EQ(preset.error().file, "defualt");
     EXPECT_EQ(preset.error().reason, "there is no preset of this name");
-    EXPECT_NE(preset.error().hint.find("default, lakhia2004"), std::string::npos) << preset.error().hint;
+    EXPECT_NE(preset.error().hint.find("default, lakhia, lakhia2004"), std::string::npos) << preset.error().hint;
     EXPECT_FALSE(loadPreset((folder_ / "missing.toml").string()));
     EXPECT_FALSE(loadPreset(""));
 }

@@ -59,13 +59,22 @@ TEST(ShippedPresets, Lakhia2004DiffersFromTheDefaultInWhatTheThesisSaysAlone) {
     for (const std::string& line : presetDifferences(Settings{}, preset->settings)) {
         paths.push_back(line.substr(0, line.find(':')));
     }
-    EXPECT_EQ(paths, (std::vector<std::string>{"select.c_textured", "select.hyst_switch", "select.hyst_limit",
+    EXPECT_EQ(paths, (std::vector<std::string>{"select.policy", "select.c_textured", "select.hyst_switch", "select.hyst_limit",
                                                "select.hyst_start", "select.hyst_band", "control.median_gate",
                                                "control.share_gain", "control.share_drop",
-                                               "control.share_proportional", "control.share_limit"}));
+                                               "control.share_proportional", "control.share_limit",
+                                               "effects.redistribution", "effects.fill_rate",
+                                               "effects.texture_pressure"}));
     EXPECT_EQ(preset->settings.control.shareGain, 0.01);
     EXPECT_EQ(preset->settings.control.shareDrop, 0.01);
     EXPECT_FALSE(preset->settings.control.shareProportional);
+}
+
+TEST(ShippedPresets, LakhiaIsTheDefaultWithAnotherPolicy) {
+    const Result<Preset> preset = loadPreset(shipped("lakhia").string());
+    ASSERT_TRUE(preset) << preset.error().oneLine();
+    EXPECT_EQ(presetDifferences(Settings{}, preset->settings).size(), 1u);
+    EXPECT_EQ(preset->settings.select.policy, PolicyId::lakhia);
 }
 
 TEST(ShippedPresets, DefaultIsWhatTheProgramStartsWith) {

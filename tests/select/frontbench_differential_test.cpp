@@ -1,0 +1,47 @@
+// The policy of algorithms 3 frame by frame against its slow implementation, on random worlds with random
+// settings, cameras, residency and times.
+#include "select/compare_with_slow.h"
+#include "select/slow_frontbench.h"
+
+namespace fb {
+namespace {
+
+using enum BoundBy;
+
+TEST(AgainstTheSlowImplementation, FrontbenchDrawsTheSameFrontAtTheSamePrice) {
+    Tally tally;
+    std::uint64_t coarsened = 0, refinements = 0, urgentRefinements = 0, exchanges = 0, exchangesAwaited = 0;
+    std::uint64_t exchangesOfSeveral = 0, cameAsRefined = 0;
+    for (std::uint64_t seed = 8001; seed < 8001 + 4 * kWorlds; ++seed) {
+        SlowFrontbench slow;
+        compareWorld(
+            seed, PolicyId::frontbench, slow, tally, [&](const TinyWalk& walk, const SlowFrame& expected) {
+                ASSERT_NEAR(walk.state.price, slow.price, 1e-9 * slow.price);
+                for (NodeId n : expected.front) {
+                    const auto waited = slow.waited.find(n);
+                    ASSERT_EQ(walk.state.waited[n], waited == slow.waited.end() ? 0.0f : waited->second)
+                        << "node " << n;
+                }
+            });
+        if (HasFatalFailure()) return;
+        coarsened += slow.coarsened;
+        refinements += slow.refinements;
+        urgentRefinements += slow.urgentRefinements;
+        exchanges += slow.exchanges;
+        exchangesOfSeveral += slow.exchangesOfSeveral;
+        exchangesAwaited += slow.exchangesAwaited;
+        cameAsRefined += slow.cameAsRefined;
+    }
+    expectManyAnswers(tally, {leaf, time, hysteresis, load, memory, view});
+    expectManySwitches(tally);
+    EXPECT_GT(coarsened, 1000u);
+    EXPECT_GT(refinements, 1000u);
+    EXPECT_GT(urgentRefinements, 1000u);
+    EXPECT_GT(exchanges, 200u);
+    EXPECT_GT(exchangesOfSeveral, 50u);
+    EXPECT_GT(exchangesAwaited, exchanges + 100);
+    EXPECT_GT(cameAsRefined, 200u);
+}
+
+}  // namespace
+}  // namespace fb

@@ -1,0 +1,180 @@
+#include "select/slow_frontbench.h"
+
+#include <algorithm>
+
+namespace fb {
+
+SlowFrame SlowFrontbench::step(const SelectInput& in) {
+    SlowScene scene(in);
+    if (scene.roots.empty()) {
+        reachedBefore_.clear();
+        return scene.finish(scene.roots, {}, switches_, [](NodeId) { return BoundBy::leaf; });
+    }
+    waits_.clear();
+    goOn(scene);
+    SlowSet reached = scene.reached(scene.roots, wanted_);
+    Limits l = limits(scene);
+    if (scene.below(l.limit, totalMs(scene, l))) {
+        makeRoom(scene, l);
+    } else {
+        l.perEstimate = std::max(l.perEstimate, 1.0);  // total is at least now
+        improve(scene, l);
+    }
+    reached.merge(scene.reached(scene.roots, wanted_));
+    reachedBefore_ = reached;
+    return scene.finish(scene.roots, refinedNow(scene), switches_, [&](NodeId n) {
+        if (!scene[n].usable) return scene[n].unusable;
+        return waits_.contains(n) ? BoundBy::hysteresis : BoundBy::time;
+    });
+}
+
+SlowSet SlowFrontbench::refinedNow(const SlowScene& scene) const {
+    SlowSet refined;
+    for (NodeId n : scene.reached(scene.roots, wanted_)) {
+        if (wanted_.contains(n)) refined.insert(n);
+    }
+    return refined;
+}
+
+double SlowFrontbench::totalMs(const SlowScene& scene, const Limits& limits) const {
+    return limits.perEstimate * scene.totalMs(scene.drawn(scene.roots, wanted_));
+}
+
+// Item 2.
+void SlowFrontbench::goOn(SlowScene& scene) {
+    std::vector<NodeId> open = scene.roots;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        const NodeId n = open[i];
+        if (!scene[n].usable) {
+            wanted_.erase(n);
+            waited.erase(n);
+        } else if (!reachedBefore_.contains(n)) {
+            waited.erase(n);
+            if (price > 0.0) {
+                const bool fine = scene.below(price * (wanted_.contains(n) ? 0.77 : 1.3), scene[n].value);
+                wanted_.erase(n);
+                if (fine) wanted_.insert(n);
+                if (fine) ++cameAsRefined;
+            }
+        }
+        if (!wanted_.contains(n)) continue;
+        open.insert(open.end(), scene[n].children.begin(), scene[n].children.end());
+    }
+}
+
+// Item 3.
+SlowFrontbench::Limits SlowFrontbench::limits(SlowScene& scene) const {
+    const SelectSettings& s = scene.in.settings;
+    const double target = scene.in.targetMs, noise = s.margin * scene.in.time.residualMs;
+    const double now = scene.totalMs(scene.drawn(scene.roots, wanted_));
+    double total = now * scene.in.time.slowRatio;
+    if (scene.below(std::max(s.emergencyMark * target, target + 3.0 * noise), now))
+        total = std::max(total, now);
+    double limit = std::max(target + noise, s.highMark * target);
+    limit = std::min(limit, std::max(1.05, s.highMark) * target);
+    return {total / now, target - noise, limit};
+}
+
+SlowSet SlowFrontbench::mayCoarsen(SlowScene& scene) const {
+    SlowSet some;
+    for (NodeId n : scene.innermost(refinedNow(scene))) {
+        if (scene.below(scene[n].timeMs, scene[n].timeMs + scene[n].extraMs)) some.insert(n);
+    }
+    return some;
+}
+
+// Item 4.
+void SlowFrontbench::makeRoom(SlowScene& scene, const Limits& l) {
+    do {
+        const NodeId least = scene.smallest(mayCoarsen(scene), [&](NodeId n) { return scene[n].value; });
+        if (least == kNoNode) return;
+        wanted_.erase(least);
+        price = scene[least].value;
+        ++coarsened;
+    } while (scene.below(l.mid, totalMs(scene, l)));
+}
+
+// Item 5.
+void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
+    const SelectSettings& s = scene.in.settings;
+    const double dt = scene.in.dtSeconds;
+    const double unused = l.mid <= 0.0 ? 0.0 : 1.0 - totalMs(scene, l) / l.mid;
+    const double waitSeconds = s.refineWait * std::clamp(1.0 - unused / s.urgency, 0.03, 1.0);
+    const std::int64_t most = scene.below(s.urgency, unused) ? 4 * s.refineRate : s.refineRate;
+    std::int64_t made = 0, tooLarge = 0;
+    double largestRefused = 0.0;
+    SlowSet notSeen = scene.refinable(scene.roots, wanted_);
+    while (!notSeen.empty()) {
+        const NodeId n = scene.largest(notSeen, [&](NodeId m) { return scene[m].value; });
+        notSeen.erase(n);
+        if (!scene.drawn(scene.roots, wanted_).contains(n))
+            continue;  // its parent has been given up for another
+        const bool free = scene[n].extraMs <= 0.0;
+        if (tooLarge >= s.refineRate && !free) continue;
+        if (free || !scene.below(l.mid, totalMs(scene, l) + scene[n].extraMs * l.perEstimate)) {
+            waited[n] += static_cast<float>(dt);
+            const bool urgent = scene.below(4.0 * s.exchangeFactor * price, scene[n].value);
+            if (!urgent && (scene.below(double{waited[n]}, waitSeconds) || made >= most)) {
+                waits_.insert(n);
+                continue;
+            }
+            refine(scene, n);
+            ++made;
+            ++(urgent ? urgentRefinements : refinements);
+            continue;
+        }
+        ++tooLarge;
+        largestRefused = std::max(largestRefused, scene[n].value);
+        const Exchange exchange = exchangeFor(scene, l, n);
+        if (exchange.givenUp.empty() || !scene.below(s.exchangeFactor, exchange.ratio)) {
+            waited[n] = std::max(0.0f, waited[n] - static_cast<float>(dt));
+            continue;
+        }
+        waited[n] += static_cast<float>(dt * exchange.ratio / s.exchangeFactor);
+        ++exchangesAwaited;
+        if (scene.below(double{waited[n]}, s.exchangeWait)) {
+            waits_.insert(n);
+            continue;
+        }
+        for (NodeId other : exchange.givenUp) wanted_.erase(other);
+        refine(scene, n);
+        ++exchanges;
+        if (exchange.givenUp.size() > 1) ++exchangesOfSeveral;
+    }
+    price = std::max(largestRefused, price / (1.0 + dt));
+}
+
+// What makes room for the node, and how many times as much the node brings.
+SlowFrontbench::Exchange SlowFrontbench::exchangeFor(SlowScene& scene, const Limits& l, NodeId n) const {
+    SlowSet candidates;
+    for (NodeId j : mayCoarsen(scene)) {
+        if (j == scene.in.hierarchy.parent[n]) continue;
+        if (scene.below(scene[j].value * scene.in.settings.exchangeFactor, scene[n].value))
+            candidates.insert(j);
+    }
+    Exchange exchange;
+    double wouldBe = totalMs(scene, l) + scene[n].extraMs * l.perEstimate, lost = 0.0;
+    while (exchange.givenUp.size() < 16 && scene.below(l.mid, wouldBe)) {
+        const NodeId least = scene.smallest(candidates, [&](NodeId m) { return scene[m].value; });
+        if (least == kNoNode) return {};
+        candidates.erase(least);
+        exchange.givenUp.insert(least);
+        wouldBe -= scene[least].extraMs * l.perEstimate;
+        lost += scene[least].value * scene[least].extraMs;
+    }
+    if (scene.below(l.mid, wouldBe)) return {};
+    exchange.ratio = std::min(1e6, scene[n].value * scene[n].extraMs / lost);
+    return exchange;
+}
+
+void SlowFrontbench::refine(const SlowScene& scene, NodeId n) {
+    wanted_.insert(n);
+    waited.erase(n);
+    for (NodeId child : scene[n].children) {
+        wanted_.erase(child);
+        waited.erase(child);
+        waits_.insert(child);
+    }
+}
+
+}  // namespace fb
