@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 
 #include "load/residency.h"
 #include "ui/panels.h"
@@ -11,15 +12,13 @@ namespace {
 
 // The reason that keeps most nodes of the front from being finer.
 std::string_view whatBinds(const FrameRecord& record) {
-    const auto most = std::ranges::max_element(record.boundBy);
     if (record.frontNodes == 0) return "nothing in view";
     if (record.infeasible) return "time: the roots alone take longer than the target";
     if (!record.moreDetailAvailable) return "nothing: every node in view is a leaf";
-    std::size_t reason = static_cast<std::size_t>(most - record.boundBy.begin());
-    if (reason == static_cast<std::size_t>(BoundBy::leaf)) {
-        reason = static_cast<std::size_t>(std::max_element(record.boundBy.begin() + 1, record.boundBy.end()) - record.boundBy.begin());
-    }
-    return boundByName(static_cast<BoundBy>(reason));
+    // Leaves, and nodes whose children are out of view, are as fine as can be.
+    std::array<std::uint32_t, kBoundByCount> nodes = record.boundBy;
+    nodes[static_cast<std::size_t>(BoundBy::leaf)] = nodes[static_cast<std::size_t>(BoundBy::view)] = 0;
+    return boundByName(static_cast<BoundBy>(std::ranges::max_element(nodes) - nodes.begin()));
 }
 
 }  // namespace

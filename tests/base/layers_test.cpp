@@ -37,7 +37,7 @@ const std::map<std::string, Names> kMayInclude = {
     {"build", {"base", "settings", "import", "scenefile"}},
     {"effects", {"base", "settings", "scenefile"}},
     {"select", {"base", "settings", "scenefile", "effects"}},
-    {"control", {"base", "settings"}},
+    {"control", {"base", "settings", "scenefile", "select"}},
     {"load", {"base", "settings", "scenefile", "effects", "select"}},
     {"measure", {"base", "settings", "import", "scenefile", "effects", "select", "load"}},
     {"draw", {"base", "settings", "import", "scenefile", "effects", "select", "load", "shaders"}},

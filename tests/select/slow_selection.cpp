@@ -48,6 +48,7 @@ double slowLeavesNeed(const SelectInput& in, NodeId n) {
 // Thesis eq. 4.1, or 3.1 Redistribution: all lambdas at which a slice begins or ends to grow are tried one after the other.
 std::vector<double> SlowSelection::slicesOf(const SelectInput& in, const std::vector<Member>& group, double shareMs) {
     std::vector<double> slices, needs, caps, lambdas = {0.0};
+    if (group.empty()) return slices;
     double all = 0.0, needed = 0.0, usable = 0.0;
     for (const Member& m : group) {
         all += m.priority;
