@@ -70,7 +70,7 @@ void planFrameLoads(Workbench& w, const View& view, FrameRecord& record) {
 
 // What this frame's selection estimates with.
 TimeModel timesOfFrame(Workbench& w, const View& view, FrameRecord& record) {
-    passTime(w.control, w.settings.control, record.dtMs / 1000.0);
+    passTime(w.control, w.settings.control, record.dtMs / 1000.0, w.selectState.patience);
     w.roots.clear();
     if (w.effects[Effect::fillRate]) {
         for (NodeId root = 0; root < w.scene->hierarchy.rootCount; ++root) w.roots.push_back(root);

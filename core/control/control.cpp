@@ -122,8 +122,8 @@ void followCostModel(ControlState& state, CostModel wanted, double cTextured) {
     state.slowSpeed = speedNow(state);
 }
 
-void passTime(ControlState& state, const ControlSettings& settings, double dtSeconds) {
-    state.slowSpeed += (speedNow(state) - state.slowSpeed) * dtSeconds / (settings.slowSeconds + dtSeconds);
+void passTime(ControlState& state, const ControlSettings& settings, double dtSeconds, double patience) {
+    state.slowSpeed += (speedNow(state) - state.slowSpeed) * dtSeconds / (patience * settings.slowSeconds + dtSeconds);
 }
 
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features,

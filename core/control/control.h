@@ -71,8 +71,8 @@ void rescaleCost(ControlState& state, double ratio);
 // The other cost model begins with what v_time has learnt.
 void followCostModel(ControlState& state, CostModel wanted, double cTextured);
 
-// Time goes by: the slow speed follows the fast one. dtSeconds in [0, 0.1].
-void passTime(ControlState& state, const ControlSettings& settings, double dtSeconds);
+// Time goes by: the slow speed follows the fast one, `patience` times as slowly as the knob says. dtSeconds in [0, 0.1].
+void passTime(ControlState& state, const ControlSettings& settings, double dtSeconds, double patience = 1.0);
 
 // Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual below what is fixed,
 // not finite). With the median gate on, the share loop sees the gated time too.

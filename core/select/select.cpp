@@ -79,7 +79,8 @@ void SelectState::reset(const Hierarchy& hierarchy, const SelectSettings& settin
     seenFrame.assign(nodes, kNever);
     wishedFrame.assign(nodes, kNever);
     leaves = {};
-    price = 0.0;
+    price = restSeconds = 0.0;
+    patience = 1.0;
     policy = settings.policy;
 }
 
@@ -116,6 +117,11 @@ void selectFront(const SelectInput& input, SelectState& state, Selection& select
     FB_CHECK(state.expanded.size() == input.hierarchy.size());
     selection.clear();
     if (state.policy != input.settings.policy) state.takeOver(input.settings.policy, input.frame);
+    const Camera &now = input.view.camera, &before = state.camera;
+    const bool rests = now.eye == before.eye && now.orientation == before.orientation;
+    state.restSeconds = rests ? state.restSeconds + input.dtSeconds : 0.0;
+    state.camera = now;
+    state.patience = 1.0;
     selection.estimateMs = input.time.fixedMs;
     policyOf(input.settings.policy).select(input, state, selection);
     for (const Reached& r : selection.reached) {

@@ -56,6 +56,9 @@ struct SelectState {
     std::vector<std::uint64_t> seenFrame;       // last frame in which it was reached
     std::vector<std::uint64_t> wishedFrame;     // last frame in which the best front had its children
     double price = 0.0;                         // gain per ms at which time changes hands now; 0: not known yet
+    double restSeconds = 0.0;                   // for which the camera has not moved or turned
+    double patience = 1.0;                      // of frontbench with a camera at rest (algorithms 3 item 4)
+    Camera camera;                              // of the frame before
     PolicyId policy = PolicyId::lakhia;         // of the frame before
 
     LeavesBelow leaves;

@@ -16,6 +16,7 @@ constexpr double kLeastWait = 0.03;                    // of refine_wait
 constexpr int kFasterWithRoom = 4;
 constexpr std::size_t kMostGivers = 16;
 constexpr double kEmergencyMargins = 3.0, kMostHighMark = 1.05;
+constexpr double kRestFrom = 2.0, kRestFor = 2.0;  // seconds
 constexpr double kMostRatio = 1e6;
 constexpr double kUrgent = 4.0;
 constexpr double kPriceSeconds = 1.0;
@@ -28,6 +29,7 @@ class Trade {
     void run() {
         tree_.start(in_, state_, selection_);
         if (tree_.nodes.empty()) return;
+        patience_ = state_.patience = 1.0 + (s_.restFactor - 1.0) * std::clamp((state_.restSeconds - kRestFrom) / kRestFor, 0.0, 1.0);
         continueFromBefore();
         weighTotal();
         if (tooMuch_) {
@@ -63,12 +65,14 @@ class Trade {
         const double nowMs = in_.time.fixedMs + tree_.drawnMs();
         totalMs_ = nowMs * in_.time.slowRatio;
         // What the estimate cannot tell from noise must switch nothing.
-        const double marginMs = s_.margin * in_.time.residualMs;
-        const double emergencyMs = std::max(s_.emergencyMark * in_.targetMs, in_.targetMs + kEmergencyMargins * marginMs);
+        const double marginMs = s_.margin * in_.time.residualMs, target = in_.targetMs;
+        const auto mark = [&](double of) { return target * (1.0 + patience_ * (of - 1.0)); };
+        const double emergencyMs =
+            std::max(mark(s_.emergencyMark), target + kEmergencyMargins * patience_ * marginMs);
         if (nowMs > emergencyMs) totalMs_ = std::max(totalMs_, nowMs);
-        middleMs_ = in_.targetMs - marginMs;
-        const double mostMs = std::max(kMostHighMark, s_.highMark) * in_.targetMs;
-        const double limitMs = std::clamp(in_.targetMs + marginMs, s_.highMark * in_.targetMs, mostMs);
+        middleMs_ = target - patience_ * marginMs;
+        const double limitMs =
+            std::clamp(target + patience_ * marginMs, mark(s_.highMark), mark(std::max(kMostHighMark, s_.highMark)));
         // Time is spent only where it is there over seconds and right now.
         tooMuch_ = totalMs_ > limitMs;
         if (!tooMuch_) totalMs_ = std::max(totalMs_, nowMs);
@@ -102,7 +106,7 @@ class Trade {
     // Step 5.
     void spend() {
         const double unused = middleMs_ > 0.0 ? 1.0 - totalMs_ / middleMs_ : 0.0;
-        const double wait = s_.refineWait * std::clamp(1.0 - unused / s_.urgency, kLeastWait, 1.0);
+        const double wait = patience_ * s_.refineWait * std::clamp(1.0 - unused / s_.urgency, kLeastWait, 1.0);
         const std::int64_t mostMade = s_.refineRate * (unused > s_.urgency ? kFasterWithRoom : 1);
         const ByValue order{tree_};
         std::vector<std::uint32_t>& heap = state_.heap;
@@ -129,7 +133,7 @@ class Trade {
             const double value = tree_.nodes[best].value;
             if (extraMs(best) <= 0.0 || totalMs_ + extraMs(best) <= middleMs_) {
                 // What brings far more than what was refused last does not wait; nor does anything while nothing is refused.
-                const bool isUrgent = value > kUrgent * s_.exchangeFactor * priceBefore;
+                const bool isUrgent = patience_ == 1.0 && value > kUrgent * s_.exchangeFactor * priceBefore;
                 waited += static_cast<float>(in_.dtSeconds);
                 if (isUrgent || (static_cast<double>(waited) >= wait && made < mostMade)) {
                     expand(best);
@@ -144,7 +148,7 @@ class Trade {
             const bool isWorthIt = ratio > s_.exchangeFactor;
             waited = isWorthIt ? waited + static_cast<float>(in_.dtSeconds * ratio / s_.exchangeFactor)
                                : std::max(0.0f, waited - static_cast<float>(in_.dtSeconds));
-            if (isWorthIt && static_cast<double>(waited) >= s_.exchangeWait) {
+            if (isWorthIt && static_cast<double>(waited) >= patience_ * s_.exchangeWait) {
                 for (std::size_t g = 0; g < giverCount_; ++g) collapse(givers_[g]);
                 expand(best);
                 for (std::size_t g = 0; g < giverCount_; ++g) refuse(tree_.nodes[givers_[g]], BoundBy::time);
@@ -223,7 +227,7 @@ class Trade {
     SelectState& state_;
     Selection& selection_;
     RefinementTree& tree_;
-    double totalMs_ = 0.0, middleMs_ = 0.0, scale_ = 1.0;
+    double totalMs_ = 0.0, middleMs_ = 0.0, scale_ = 1.0, patience_ = 1.0;
     bool tooMuch_ = false;
     std::array<std::uint32_t, kMostGivers> givers_{};
     std::size_t giverCount_ = 0;

@@ -11,7 +11,7 @@ using enum BoundBy;
 TEST(AgainstTheSlowImplementation, FrontbenchDrawsTheSameFrontAtTheSamePrice) {
     Tally tally;
     std::uint64_t coarsened = 0, refinements = 0, urgentRefinements = 0, exchanges = 0, exchangesAwaited = 0;
-    std::uint64_t exchangesOfSeveral = 0, cameAsRefined = 0;
+    std::uint64_t exchangesOfSeveral = 0, cameAsRefined = 0, patientFrames = 0;
     for (std::uint64_t seed = 8001; seed < 8001 + 4 * kWorlds; ++seed) {
         SlowFrontbench slow;
         compareWorld(
@@ -31,6 +31,7 @@ TEST(AgainstTheSlowImplementation, FrontbenchDrawsTheSameFrontAtTheSamePrice) {
         exchangesOfSeveral += slow.exchangesOfSeveral;
         exchangesAwaited += slow.exchangesAwaited;
         cameAsRefined += slow.cameAsRefined;
+        patientFrames += slow.patientFrames;
     }
     expectManyAnswers(tally, {leaf, time, hysteresis, load, memory, view});
     expectManySwitches(tally);
@@ -41,6 +42,7 @@ TEST(AgainstTheSlowImplementation, FrontbenchDrawsTheSameFrontAtTheSamePrice) {
     EXPECT_GT(exchangesOfSeveral, 50u);
     EXPECT_GT(exchangesAwaited, exchanges + 100);
     EXPECT_GT(cameAsRefined, 200u);
+    EXPECT_GT(patientFrames, 1000u);
 }
 
 }  // namespace

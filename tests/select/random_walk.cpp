@@ -30,6 +30,7 @@ SelectSettings randomRivalSettings(Random& r, PolicyId policy) {
     s.refineWait = r.index(8) == 0 ? 0.0 : r.uniform(0.0, 0.3);
     s.urgency = r.uniform(0.01, 1.0);
     s.refineRate = 1 + static_cast<int>(r.index(5));
+    s.restFactor = r.index(3) == 0 ? 1.0 : r.uniform(1.0, 8.0);
     return s;
 }
 
@@ -119,6 +120,7 @@ RandomWalk::RandomWalk(std::uint64_t seed, PolicyId policy)
     moveCamera(r, walk, true);
     elsewhere = walk.view;
     moveCamera(r, walk, true);
+    comesToRest = r.index(4) == 0;
 }
 
 SelectInput RandomWalk::next() {
@@ -138,8 +140,12 @@ SelectInput RandomWalk::next() {
         walk.measured.actualMs = walk.targetMs * r.uniform(0.5, 2.0);
     }
     changeResidency(r, walk);
-    if (r.index(8) == 0) std::swap(walk.view, elsewhere);
-    moveCamera(r, walk, r.index(25) == 0);
+    if (comesToRest && walk.frame > 5) {
+        walk.dtSeconds = r.index(15) == 0 ? 0.0 : 0.1;
+    } else {
+        if (r.index(8) == 0) std::swap(walk.view, elsewhere);
+        moveCamera(r, walk, r.index(25) == 0);
+    }
     SelectInput in = walk.input();
     in.time = time;
     return in;

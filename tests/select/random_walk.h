@@ -12,6 +12,7 @@ struct RandomWalk {
     TinyWalk walk;
     TimeModel time;
     View elsewhere;  // where the camera goes back to now and then
+    bool comesToRest = false;  // the camera stands still from the sixth frame on, and frames take long
     double leafTriangles = 1.0;
     double unitMs = 1.0;  // of all times: some walks are so fast that a refinement takes microseconds
 

@@ -6,6 +6,14 @@ namespace fb {
 
 SlowFrame SlowFrontbench::step(const SelectInput& in) {
     SlowScene scene(in);
+    const Camera& camera = in.view.camera;
+    if (camera.eye != cameraBefore_.eye || camera.orientation != cameraBefore_.orientation) restSeconds_ = 0.0;
+    else restSeconds_ += in.dtSeconds;
+    cameraBefore_ = camera;
+    patience_ = 1.0;
+    if (restSeconds_ >= 4.0) patience_ = in.settings.restFactor;
+    else if (restSeconds_ > 2.0) patience_ = 1.0 + (in.settings.restFactor - 1.0) * (restSeconds_ - 2.0) / 2.0;
+    if (patience_ > 1.0) ++patientFrames;
     if (scene.roots.empty()) {
         reachedBefore_.clear();
         return scene.finish(scene.roots, {}, switches_, [](NodeId) { return BoundBy::leaf; });
@@ -68,11 +76,12 @@ SlowFrontbench::Limits SlowFrontbench::limits(SlowScene& scene) const {
     const double target = scene.in.targetMs, noise = s.margin * scene.in.time.residualMs;
     const double now = scene.totalMs(scene.drawn(scene.roots, wanted_));
     double total = now * scene.in.time.slowRatio;
-    if (scene.below(std::max(s.emergencyMark * target, target + 3.0 * noise), now))
-        total = std::max(total, now);
-    double limit = std::max(target + noise, s.highMark * target);
-    limit = std::min(limit, std::max(1.05, s.highMark) * target);
-    return {total / now, target - noise, limit};
+    const auto widened = [&](double mark) { return target + patience_ * (mark - 1.0) * target; };
+    const double wide = patience_ * noise;
+    if (scene.below(std::max(widened(s.emergencyMark), target + 3.0 * wide), now)) total = std::max(total, now);
+    double limit = std::max(target + wide, widened(s.highMark));
+    limit = std::min(limit, widened(std::max(1.05, s.highMark)));
+    return {total / now, target - wide, limit};
 }
 
 SlowSet SlowFrontbench::mayCoarsen(SlowScene& scene) const {
@@ -99,7 +108,7 @@ void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
     const SelectSettings& s = scene.in.settings;
     const double dt = scene.in.dtSeconds;
     const double unused = l.mid <= 0.0 ? 0.0 : 1.0 - totalMs(scene, l) / l.mid;
-    const double waitSeconds = s.refineWait * std::clamp(1.0 - unused / s.urgency, 0.03, 1.0);
+    const double waitSeconds = patience_ * s.refineWait * std::clamp(1.0 - unused / s.urgency, 0.03, 1.0);
     const std::int64_t most = scene.below(s.urgency, unused) ? 4 * s.refineRate : s.refineRate;
     std::int64_t made = 0, tooLarge = 0;
     double largestRefused = 0.0;
@@ -113,7 +122,7 @@ void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
         if (tooLarge >= s.refineRate && !free) continue;
         if (free || !scene.below(l.mid, totalMs(scene, l) + scene[n].extraMs * l.perEstimate)) {
             waited[n] += static_cast<float>(dt);
-            const bool urgent = scene.below(4.0 * s.exchangeFactor * price, scene[n].value);
+            const bool urgent = patience_ == 1.0 && scene.below(4.0 * s.exchangeFactor * price, scene[n].value);
             if (!urgent && (scene.below(double{waited[n]}, waitSeconds) || made >= most)) {
                 waits_.insert(n);
                 continue;
@@ -132,7 +141,7 @@ void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
         }
         waited[n] += static_cast<float>(dt * exchange.ratio / s.exchangeFactor);
         ++exchangesAwaited;
-        if (scene.below(double{waited[n]}, s.exchangeWait)) {
+        if (scene.below(double{waited[n]}, patience_ * s.exchangeWait)) {
             waits_.insert(n);
             continue;
         }

@@ -14,7 +14,7 @@ class SlowFrontbench {
     std::map<NodeId, float> waited;  // seconds; a node that is not in it has not waited
     // How often each thing happened.
     std::uint64_t coarsened = 0, refinements = 0, urgentRefinements = 0, exchanges = 0, exchangesAwaited = 0;
-    std::uint64_t exchangesOfSeveral = 0, cameAsRefined = 0;
+    std::uint64_t exchangesOfSeveral = 0, cameAsRefined = 0, patientFrames = 0;
 
   private:
     struct Limits {
@@ -40,6 +40,8 @@ class SlowFrontbench {
     SlowSet reachedBefore_;  // in the frame before
     SlowSet waits_;          // would be refined, but not in this frame
     SlowSwitches switches_;
+    double restSeconds_ = 0.0, patience_ = 1.0;
+    Camera cameraBefore_;
 };
 
 }  // namespace fb

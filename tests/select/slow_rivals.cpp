@@ -81,7 +81,7 @@ SlowFrame SlowRivals::erikson(SlowScene& scene) {
     const SelectInput& in = scene.in;
     double most =
         std::max(0.0, in.targetMs - in.time.fixedMs) / ((in.time.texturedMs + in.time.untexturedMs) / 2.0);
-    if (in.measured.actualMs > 0.0)
+    if (in.measured.actualMs > 0.0 && in.measured.triangles > 0)
         most = static_cast<double>(in.measured.triangles) * in.targetMs / in.measured.actualMs;
     SlowSet refined;
     while (true) {

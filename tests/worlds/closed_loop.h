@@ -33,7 +33,7 @@ struct ClosedLoop {
 
     // `measuredMs` stands in for the device's time: a stall, or a device of other speed.
     void step(std::optional<double> measuredMs = std::nullopt) {
-        passTime(control, settings.control, walk.dtSeconds);
+        passTime(control, settings.control, walk.dtSeconds, walk.state.patience);
         time = timeModel(control, settings.control, walk.settings.cTextured, 0.0, nullptr);
         walk.shareMs = shareMs(control, settings.control);
         walk.targetMs = settings.control.targetMs;
