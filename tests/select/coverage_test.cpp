@@ -32,6 +32,11 @@ TEST(CoveredMegapixels, IsThePartOfThePictureInFrontOfTheBox) {
     EXPECT_DOUBLE_EQ(covered({boxOf({-1, 0, -1.001f}, {0, 1, -1})}), 0.25);
 }
 
+TEST(CoveredMegapixels, CountsACellThatIsTouched) {
+    EXPECT_DOUBLE_EQ(covered({boxOf({-1, -1, -1.001f}, {-0.99f, 1, -1})}), 1.0 / 64);
+    EXPECT_DOUBLE_EQ(covered({boxOf({-0.1f, 0.51f, -1.001f}, {0.01f, 0.52f, -1})}), 5.0 / 64 / 36);
+}
+
 TEST(CoveredMegapixels, CountsAPlaceOnceHoweverManyBoxesAreThere) {
     const Box3f left = boxOf({-1, -1, -1.001f}, {0, 1, -1}), farther = boxOf({-2, -2, -2.001f}, {0, 2, -2});
     EXPECT_DOUBLE_EQ(covered({left, farther}), 0.5);
