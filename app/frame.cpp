@@ -71,12 +71,10 @@ void planFrameLoads(Workbench& w, const View& view, FrameRecord& record) {
 // What this frame's selection estimates with.
 TimeModel timesOfFrame(Workbench& w, const View& view, FrameRecord& record) {
     passTime(w.control, w.settings.control, record.dtMs / 1000.0, w.selectState.patience);
-    w.roots.clear();
     if (w.effects[Effect::fillRate]) {
-        for (NodeId root = 0; root < w.scene->hierarchy.rootCount; ++root) w.roots.push_back(root);
-        record.effectWork[Effect::fillRate] += w.roots.size();
+        record.effectWork[Effect::fillRate] += w.scene->hierarchy.rootCount;
+        record.megapixels = megapixelsOfRoots(w.scene->hierarchy, view);
     }
-    record.megapixels = w.roots.empty() ? 0.0 : coveredMegapixels(w.scene->hierarchy, w.roots, view);
     const TexturePressure pressure{w.residency.residentTextureBytes, textureBudgetBytes(w.settings.load)};
     return timeModel(w.control, w.settings.control, w.settings.select.cTextured, record.megapixels,
                      w.effects[Effect::texturePressure] ? &pressure : nullptr);
@@ -99,6 +97,7 @@ void chooseFront(Workbench& w, const View& view, FrameRecord& record) {
                             w.measured};
     record.fixedMs = input.time.fixedMs;
     selectFront(input, w.selectState, w.selection);
+    w.features.push(featuresOf(input, w.selection, record.megapixels));
     for (NodeId node : w.selection.front) w.inFront[node] = 1;
     record.selectUs = 1000.0 * millisecondsSince(start);
 }
@@ -119,13 +118,12 @@ void recordSelection(Workbench& w, const View& view, FrameRecord& record) {
     record.moreDetailAvailable = boundBy(BoundBy::leaf) + boundBy(BoundBy::view) < record.frontNodes;
     record.refusedGroups = s.counters.refusedGroups;
     record.skippedRoots = s.counters.skippedRoots;
-    for (const Reached& r : s.reached) {
-        if (!r.expanded) record.refusedNeedMs += r.needMs;
-    }
-    // A node whose children are all out of view shows nothing of itself but its box.
     w.seenFront.clear();
     for (const Reached& r : s.reached) {
-        if (!r.expanded && r.boundBy != BoundBy::view) w.seenFront.push_back(r.node);
+        if (r.expanded) continue;
+        record.refusedNeedMs += r.needMs;
+        // A node whose children are all out of view shows nothing of itself but its box.
+        if (r.boundBy != BoundBy::view) w.seenFront.push_back(r.node);
     }
     const FrontError error = frontError(w.scene->hierarchy, w.seenFront, view);
     record.errorPixelsMax = error.maxPixels;
@@ -134,23 +132,9 @@ void recordSelection(Workbench& w, const View& view, FrameRecord& record) {
     record.vTimeMs = w.control.vTimeMs;
     record.shareMs = shareMs(w.control, w.settings.control);
     record.estimateMs = s.estimateMs;
-    const bool onlyRoots = record.levels[0] == record.frontNodes;
-    FrameFeatures features;
-    features.frame = w.frame;
-    features.frontCost = s.frontCost;
-    features.fixedMs = record.fixedMs + s.pressureMs;
-    features.estimateMs = record.estimateMs;
-    features.triangles = s.triangles;
-    features.work = {1e-3 * static_cast<double>(s.texturedTriangles),
-                     1e-3 * static_cast<double>(s.triangles - s.texturedTriangles), static_cast<double>(s.front.size()),
-                     record.megapixels, 1.0};
-    features.refusedGroups = s.counters.refusedGroups;
-    features.onlyRoots = onlyRoots;
-    features.shareFeedback = w.effects[Effect::shareFeedback];
-    w.features.push(features);
     for (std::size_t i = 0; i < kEffectCount; ++i)
         record.effectWork.count[i] += s.counters.effectWork.count[i] + w.plan.groups.effectWork.count[i];
-    if (features.shareFeedback) ++record.effectWork[Effect::shareFeedback];
+    if (w.effects[Effect::shareFeedback]) ++record.effectWork[Effect::shareFeedback];
     for (std::size_t i = 0; i < kEffectCount; ++i) w.effectWork.count[i] += record.effectWork.count[i];
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 #include <thread>
 
 #include "app/guarded_child.h"
@@ -19,9 +18,7 @@ constexpr int kLongestWaitMs = 500;                   // for the time of one pic
 FrontTimes countFront(const Hierarchy& hierarchy, const TimedFronts::Front& front, const View& view) {
     FrontTimes times;
     times.view = front.view;
-    std::vector<NodeId> roots(hierarchy.rootCount);
-    std::iota(roots.begin(), roots.end(), NodeId{0});
-    times.megapixels = coveredMegapixels(hierarchy, roots, view);
+    times.megapixels = megapixelsOfRoots(hierarchy, view);
     for (NodeId node : front.nodes) {
         times.texturedTriangles += hierarchy.texturedTriangles[node];
         times.untexturedTriangles += hierarchy.untexturedTriangles[node];

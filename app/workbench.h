@@ -50,7 +50,7 @@ struct Workbench {
     std::optional<MeasuredConstants> knownConstants;  // then opening a scene measures nothing
     View view;                // of this frame
     MeasuredFront measured;   // the newest whose time is known
-    std::vector<NodeId> roots, seenFront;  // scratch
+    std::vector<NodeId> seenFront;  // scratch
     ModelCounts modelCounts;
     FeatureRing features;
 

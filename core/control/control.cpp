@@ -145,13 +145,4 @@ void feedBack(ControlState& state, const ControlSettings& settings, const FrameF
     if (features.shareFeedback) feedBackShare(state, settings, features, steadyMs);
 }
 
-void FeatureRing::push(const FrameFeatures& features) {
-    ring_[features.frame % ring_.size()] = features;
-}
-
-const FrameFeatures* FeatureRing::find(std::uint64_t frame) const {
-    const FrameFeatures& kept = ring_[frame % ring_.size()];
-    return kept.frame == frame && frame != 0 ? &kept : nullptr;  // 0 marks a place that is still empty
-}
-
 }  // namespace fb

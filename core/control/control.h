@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "control/cost_fit.h"
+#include "control/frame_features.h"
 #include "control/median_gate.h"
 #include "select/time_model.h"
 #include "settings/settings.h"
@@ -32,19 +33,6 @@ struct ControlState {
     CostFit fit;                  // of the model by least squares
     double slowSpeed = 1.0;       // m_slow: the fast factor of either model, averaged over seconds
     double residualMs = 0.0;      // rs: usual error of the estimate; 0: none measured yet
-};
-
-// What must be remembered of a frame until its time is known.
-struct FrameFeatures {
-    std::uint64_t frame = 0;
-    double frontCost = 0.0;
-    double fixedMs = 0.0;        // of the estimate
-    double estimateMs = 0.0;
-    std::uint64_t triangles = 0;
-    WorkVector work{};
-    std::uint32_t refusedGroups = 0;
-    bool onlyRoots = false;      // the front holds nothing but roots
-    bool shareFeedback = false;  // the effect shareFeedback was on
 };
 
 // Texture that is drawn while more is in memory than the device holds (effect texture_pressure).
@@ -77,15 +65,5 @@ void passTime(ControlState& state, const ControlSettings& settings, double dtSec
 // Takes in one measured frame. Skips v_time where the measurement says nothing (empty front, actual below what is fixed,
 // not finite). With the median gate on, the share loop sees the gated time too.
 void feedBack(ControlState& state, const ControlSettings& settings, const FrameFeatures& features, double actualMs);
-
-// Features of the last 16 frames, for timings that arrive late (GPU queries). Frames count from 1.
-class FeatureRing {
-  public:
-    void push(const FrameFeatures& features);
-    [[nodiscard]] const FrameFeatures* find(std::uint64_t frame) const;  // null when it is too old
-
-  private:
-    std::array<FrameFeatures, 16> ring_{};
-};
 
 }  // namespace fb

@@ -41,21 +41,40 @@ std::optional<Cells> cellsOf(const View& view, const Box3f& box) {
     return Cells{cell(low[0], kColumns), end(high[0], kColumns), cell(low[1], kRows), end(high[1], kRows)};
 }
 
-}  // namespace
-
-double coveredMegapixels(const Hierarchy& hierarchy, std::span<const NodeId> nodes, const View& view) {
-    std::array<std::uint64_t, kRows> rows{};  // a bit a column
-    for (const NodeId node : nodes) {
-        const std::optional<Cells> cells = cellsOf(view, hierarchy.bounds[node]);
-        if (!cells || cells->right <= cells->left) continue;
+class Mask {
+  public:
+    explicit Mask(const View& view) : view_(view) {}
+    void add(const Box3f& box) {
+        const std::optional<Cells> cells = cellsOf(view_, box);
+        if (!cells || cells->right <= cells->left) return;
         const int width = cells->right - cells->left;
         const std::uint64_t bits = (width == kColumns ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1)
                                    << cells->left;
-        for (int row = cells->top; row < cells->bottom; ++row) rows[static_cast<std::size_t>(row)] |= bits;
+        for (int row = cells->top; row < cells->bottom; ++row) rows_[static_cast<std::size_t>(row)] |= bits;
     }
-    int covered = 0;
-    for (const std::uint64_t row : rows) covered += std::popcount(row);
-    return 1e-6 * view.width * view.height * covered / (kColumns * kRows);
+    [[nodiscard]] double megapixels() const {
+        int covered = 0;
+        for (const std::uint64_t row : rows_) covered += std::popcount(row);
+        return 1e-6 * view_.width * view_.height * covered / (kColumns * kRows);
+    }
+
+  private:
+    const View& view_;
+    std::array<std::uint64_t, kRows> rows_{};  // a bit a column
+};
+
+}  // namespace
+
+double coveredMegapixels(const Hierarchy& hierarchy, std::span<const NodeId> nodes, const View& view) {
+    Mask mask(view);
+    for (const NodeId node : nodes) mask.add(hierarchy.bounds[node]);
+    return mask.megapixels();
+}
+
+double megapixelsOfRoots(const Hierarchy& hierarchy, const View& view) {
+    Mask mask(view);
+    for (NodeId root = 0; root < hierarchy.rootCount; ++root) mask.add(hierarchy.bounds[root]);
+    return mask.megapixels();
 }
 
 }  // namespace fb

@@ -15,6 +15,20 @@ constexpr double kLeastExtraMs = 1e-3;
 constexpr double kLargestValue = 1e300;
 constexpr double kSavingFactor = 1000.0;  // what takes no more time is worth as if it took the least
 
+// Benefits of the visible children, less what their parent's part of the same region has already.
+double benefitGain(const SelectInput& input, NodeId parent, const SelectState& state) {
+    const Hierarchy& h = input.hierarchy;
+    const double part = static_cast<double>(h.staticBenefit[parent]) / h.childCount[parent];
+    double gain = 0.0;
+    for (std::size_t i = 0; i < state.group.size(); ++i) {
+        const NodeId child = state.group[i];
+        const double benefit = state.priorities[i] * nodeCost(h, child, input.settings.cTextured);
+        const double own = static_cast<double>(h.staticBenefit[child]);
+        gain += benefit * (own > 0.0 ? std::max(kLeastShareGained, 1.0 - part / own) : kLeastShareGained);
+    }
+    return gain;
+}
+
 // Edge of a texel in metres; 0 without texture.
 double texelMetres(const Hierarchy& h, NodeId n) {
     const double texels = 1.0 * h.textureWidth[n] * h.textureHeight[n];
@@ -42,7 +56,8 @@ double errorGain(const SelectInput& input, NodeId parent, const std::vector<Node
 
 }  // namespace
 
-void RefinementTree::start(const SelectInput& input, SelectState& state, Selection& selection) {
+void RefinementTree::start(const SelectInput& input, SelectState& state, Selection& selection, GainMeasure gain) {
+    gain_ = gain;
     nodes.clear();
     children.clear();
     gatherGroup(input, kNoNode, state, selection);
@@ -106,19 +121,9 @@ void RefinementTree::add(NodeId node, std::uint32_t parent, const SelectInput& i
 }
 
 void RefinementTree::weigh(Refinement& r, const SelectInput& input, const SelectState& state) const {
-    const Hierarchy& h = input.hierarchy;
-    const double part = static_cast<double>(h.staticBenefit[r.node]) / h.childCount[r.node];
     double childrenMs = 0.0;
-    for (std::size_t i = 0; i < state.group.size(); ++i) {
-        const NodeId child = state.group[i];
-        const double benefit = state.priorities[i] * nodeCost(h, child, input.settings.cTextured);
-        const double own = static_cast<double>(h.staticBenefit[child]);
-        const double gained = own > 0.0 ? std::max(kLeastShareGained, 1.0 - part / own) : kLeastShareGained;
-        r.gain += benefit * gained;
-        childrenMs += nodeTimeMs(input.time, h, child);
-    }
-    if (input.settings.policy == PolicyId::frontbench && input.settings.gainMeasure == GainMeasure::error)
-        r.gain = errorGain(input, r.node, state.group);
+    for (const NodeId child : state.group) childrenMs += nodeTimeMs(input.time, input.hierarchy, child);
+    r.gain = gain_ == GainMeasure::error ? errorGain(input, r.node, state.group) : benefitGain(input, r.node, state);
     r.extraMs = childrenMs - r.ownMs;
     r.value = r.extraMs > 0.0 ? r.gain / std::max(r.extraMs, kLeastExtraMs) : kSavingFactor * r.gain;
     r.value = std::min(r.value, kLargestValue);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "settings/settings.h"
 
 namespace fb {
 
@@ -42,8 +43,9 @@ struct RefinementTree {
     std::vector<Refinement> nodes;  // parents before their children
     std::vector<NodeId> children;
 
-    // Begins with the visible roots.
-    void start(const SelectInput& input, SelectState& state, Selection& selection);
+    // Begins with the visible roots; `gain`: what a refinement is said to bring.
+    void start(const SelectInput& input, SelectState& state, Selection& selection,
+               GainMeasure gain = GainMeasure::benefit);
     // The visible children of a usable node are drawn in its place; the first time they are put at the end of `nodes`.
     void expand(std::uint32_t index, const SelectInput& input, SelectState& state, Selection& selection);
     // The other way, for one whose children are not expanded; they stay in `nodes`, without being drawn.
@@ -63,6 +65,8 @@ struct RefinementTree {
   private:
     void add(NodeId node, std::uint32_t parent, const SelectInput& input, SelectState& state, Selection& selection);
     void weigh(Refinement& refinement, const SelectInput& input, const SelectState& state) const;
+
+    GainMeasure gain_ = GainMeasure::benefit;
 };
 
 // For heaps of indices: the one of the highest value first, or of the lowest; the lowest id among equals.

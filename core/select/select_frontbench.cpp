@@ -2,10 +2,8 @@
 // left goes to the refinement with the largest gain for its time, once it has fitted for a while; time that is missing is
 // taken from where it brings least; and time changes hands only where it brings several times as much there.
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 
+#include "select/givers.h"
 #include "select/select_policies.h"
 
 namespace fb {
@@ -14,12 +12,10 @@ namespace {
 constexpr double kEnterLess = 0.77, kEnterMore = 1.3;  // of the price: what comes into view, refined before or not
 constexpr double kLeastWait = 0.03;                    // of refine_wait
 constexpr int kFasterWithRoom = 4;
-constexpr std::size_t kMostGivers = 16;
 constexpr double kEmergencyMargins = 3.0, kMostHighMark = 1.05;
 constexpr double kRestFrom = 2.0, kRestFor = 2.0;  // seconds
-constexpr double kMostRatio = 1e6;
-constexpr double kUrgent = 4.0;
-constexpr double kPriceSeconds = 1.0;
+constexpr double kUrgent = 4.0;        // times exchange_factor times the price: does not wait
+constexpr double kPriceSeconds = 1.0;  // in which the price falls to a third while nobody is refused
 
 class Trade {
   public:
@@ -27,9 +23,10 @@ class Trade {
         : in_(input), s_(input.settings), state_(state), selection_(selection), tree_(state.tree) {}
 
     void run() {
-        tree_.start(in_, state_, selection_);
+        tree_.start(in_, state_, selection_, s_.gainMeasure);
         if (tree_.nodes.empty()) return;
-        patience_ = state_.patience = 1.0 + (s_.restFactor - 1.0) * std::clamp((state_.restSeconds - kRestFrom) / kRestFor, 0.0, 1.0);
+        const double rest = std::clamp((state_.restSeconds - kRestFrom) / kRestFor, 0.0, 1.0);
+        patience_ = state_.patience = 1.0 + (s_.restFactor - 1.0) * rest;
         continueFromBefore();
         weighTotal();
         if (tooMuch_) {
@@ -144,53 +141,26 @@ class Trade {
                 continue;
             }
             bestRefused = std::max(bestRefused, value);
-            const double ratio = findGivers(best);
-            const bool isWorthIt = ratio > s_.exchangeFactor;
-            waited = isWorthIt ? waited + static_cast<float>(in_.dtSeconds * ratio / s_.exchangeFactor)
-                               : std::max(0.0f, waited - static_cast<float>(in_.dtSeconds));
-            if (isWorthIt && static_cast<double>(waited) >= patience_ * s_.exchangeWait) {
-                for (std::size_t g = 0; g < giverCount_; ++g) collapse(givers_[g]);
-                expand(best);
-                for (std::size_t g = 0; g < giverCount_; ++g) refuse(tree_.nodes[givers_[g]], BoundBy::time);
-            } else {
-                refuse(tree_.nodes[best], isWorthIt ? BoundBy::hysteresis : BoundBy::time);
-            }
+            considerExchange(best, waited);
             ++failed;
         }
         // It falls slowly: a moment without anybody refused says little.
         state_.price = std::max(bestRefused, priceBefore * kPriceSeconds / (kPriceSeconds + in_.dtSeconds));
     }
 
-    // The cheapest groups that may be given up for `taker`, as few as make room for it: how many times as much it
-    // brings as they do; 0 where there are none.
-    double findGivers(std::uint32_t taker) {
-        const Refinement& t = tree_.nodes[taker];
-        giverCount_ = 0;
-        for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-            const Refinement& r = tree_.nodes[i];
-            if (!tree_.isInnermost(i) || !(r.extraMs > 0.0) || i == t.parent) continue;
-            if (!(r.value * s_.exchangeFactor < t.value)) continue;
-            insertGiver(i);
+    // Where others may be given up for it that are worth less by enough.
+    void considerExchange(std::uint32_t taker, float& waited) {
+        const double ratio = givers_.find(tree_, taker, (totalMs_ - middleMs_) / scale_, s_.exchangeFactor);
+        const bool isWorthIt = ratio > s_.exchangeFactor;
+        waited = isWorthIt ? waited + static_cast<float>(in_.dtSeconds * ratio / s_.exchangeFactor)
+                           : std::max(0.0f, waited - static_cast<float>(in_.dtSeconds));
+        if (!isWorthIt || static_cast<double>(waited) < patience_ * s_.exchangeWait) {
+            refuse(tree_.nodes[taker], isWorthIt ? BoundBy::hysteresis : BoundBy::time);
+            return;
         }
-        double freedMs = 0.0, given = 0.0;
-        const double neededMs = totalMs_ + extraMs(taker) - middleMs_;
-        for (std::size_t g = 0; g < giverCount_; ++g) {
-            freedMs += extraMs(givers_[g]);
-            given += tree_.nodes[givers_[g]].value * extraMs(givers_[g]);
-            if (freedMs < neededMs) continue;
-            giverCount_ = g + 1;
-            return given > 0.0 ? std::min(t.value * extraMs(taker) / given, kMostRatio) : kMostRatio;
-        }
-        return 0.0;
-    }
-    void insertGiver(std::uint32_t i) {
-        const ByValue later{tree_, true};  // of the two that are given up, the lower value and then the lower id goes first
-        std::size_t at = giverCount_;
-        while (at > 0 && later(givers_[at - 1], i)) --at;
-        if (at == kMostGivers) return;
-        giverCount_ = std::min(giverCount_ + 1, kMostGivers);
-        for (std::size_t g = giverCount_ - 1; g > at; --g) givers_[g] = givers_[g - 1];
-        givers_[at] = i;
+        for (const std::uint32_t giver : givers_.chosen()) collapse(giver);
+        expand(taker);
+        for (const std::uint32_t giver : givers_.chosen()) refuse(tree_.nodes[giver], BoundBy::time);
     }
 
     [[nodiscard]] double extraMs(std::uint32_t i) const { return scale_ * tree_.nodes[i].extraMs; }
@@ -229,8 +199,7 @@ class Trade {
     RefinementTree& tree_;
     double totalMs_ = 0.0, middleMs_ = 0.0, scale_ = 1.0, patience_ = 1.0;
     bool tooMuch_ = false;
-    std::array<std::uint32_t, kMostGivers> givers_{};
-    std::size_t giverCount_ = 0;
+    Givers givers_;
 };
 
 }  // namespace

@@ -29,8 +29,7 @@ double movedCounter(const SelectInput& input, double h, double sliceMs, double n
 
 GroupVote moveCounters(const SelectInput& input, double shareMs, SelectState& state, SelectCounters& counters) {
     GroupVote vote;
-    state.slices.clear();
-    appendSlices(input, shareMs, state, counters, state.slices);
+    shareOut(input, shareMs, state, counters);
     for (std::size_t i = 0; i < state.group.size(); ++i) {
         const NodeId n = state.group[i];
         const double needMs = timeNeeded(input, n);
@@ -70,7 +69,7 @@ void selectLakhia(const SelectInput& input, SelectState& state, Selection& selec
     if (state.group.empty()) return;  // the sky: no counter moves
     // Level 0 is drawn whatever its counters say (algorithms 2 item 6); they move for the panels.
     moveCounters(input, rootShare(input), state, selection.counters);
-    descendBySlices(input, rootShare(input), state, selection,
+    descendBySlices(state, selection,
                     [&](NodeId n, double sliceMs) { return decide(input, n, sliceMs, state, selection); });
 }
 

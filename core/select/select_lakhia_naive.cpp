@@ -18,6 +18,7 @@ Reached decideNaively(const SelectInput& input, NodeId n, double shareMs, Select
         return {n, false, BoundBy::time, needMs, shareMs};
     }
     if (memory != GroupMemory::loaded) return {n, false, boundByMemory(memory), needMs, shareMs};
+    shareOut(input, shareMs, state, selection.counters);
     return {n, true, BoundBy::leaf, needMs, shareMs};
 }
 
@@ -25,7 +26,8 @@ Reached decideNaively(const SelectInput& input, NodeId n, double shareMs, Select
 
 void selectLakhiaNaive(const SelectInput& input, SelectState& state, Selection& selection) {
     gatherGroup(input, kNoNode, state, selection);
-    descendBySlices(input, rootShare(input), state, selection,
+    shareOut(input, rootShare(input), state, selection.counters);
+    descendBySlices(state, selection,
                     [&](NodeId n, double sliceMs) { return decideNaively(input, n, sliceMs, state, selection); });
 }
 

@@ -25,22 +25,22 @@ enum class GroupMemory : std::uint8_t { loaded, missing, refused };  // refused:
 // The share time of the roots, which a heavy overhead may not make negative (algorithms 5, case 11).
 [[nodiscard]] double rootShare(const SelectInput& input);
 
-// Breadth first from the group in state.group, whose members share `shareMs`: each node waits in the queue with its
-// slice; decide(node, sliceMs) says whether it is expanded and leaves the visible children in state.group, which then
-// share the slice.
+// Breadth first from the group in state.group: each node waits in the queue with its
+// slice; decide(node, sliceMs) says whether it is expanded and then leaves the visible children in state.group, their slices of
+// it in state.slices; so does the caller for the first group.
 template <class Decide>
-void descendBySlices(const SelectInput& input, double shareMs, SelectState& state, Selection& selection, const Decide& decide) {
+void descendBySlices(SelectState& state, Selection& selection, const Decide& decide) {
     state.queue.clear();
     state.shares.clear();
-    const auto queueGroup = [&](double share) {
+    const auto queueGroup = [&] {
         state.queue.insert(state.queue.end(), state.group.begin(), state.group.end());
-        appendSlices(input, share, state, selection.counters, state.shares);
+        state.shares.insert(state.shares.end(), state.slices.begin(), state.slices.end());
     };
-    queueGroup(shareMs);
+    queueGroup();
     for (std::size_t next = 0; next < state.queue.size(); ++next) {
         const double sliceMs = state.shares[next];
         const Reached reached = decide(state.queue[next], sliceMs);
-        if (reached.expanded) queueGroup(sliceMs);
+        if (reached.expanded) queueGroup();
         selection.reached.push_back(reached);
     }
 }

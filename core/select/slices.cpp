@@ -33,18 +33,20 @@ double leavesMs(const TimeModel& time, const LeavesBelow& leaves, NodeId n) {
 }
 
 
-double sumAt(double lambda, const SelectState& state, const std::vector<double>& into, std::size_t first) {
+// With the need and the cap of each in state.slices, one after the other.
+double sumAt(double lambda, const SelectState& state) {
     double sum = 0.0;
     for (std::size_t i = 0; i < state.group.size(); ++i)
-        sum += std::clamp(lambda * state.priorities[i], into[first + 2 * i], into[first + 2 * i + 1]);
+        sum += std::clamp(lambda * state.priorities[i], state.slices[2 * i], state.slices[2 * i + 1]);
     return sum;
 }
 
-void redistribute(const SelectInput& input, double shareMs, SelectState& state, std::vector<double>& into) {
+void redistribute(const SelectInput& input, double shareMs, SelectState& state) {
     if (state.leaves.count.size() != input.hierarchy.size()) sumLeaves(input.hierarchy, state.leaves);
-    const std::size_t first = into.size(), count = state.group.size();
+    std::vector<double>& into = state.slices;
+    const std::size_t count = state.group.size();
     double needs = 0.0, most = 0.0;
-    for (const NodeId n : state.group) {  // scratch behind what is there: need and cap of each
+    for (const NodeId n : state.group) {
         const double need = nodeTimeMs(input.time, input.hierarchy, n);
         const double cap = std::max(need, kCapFactor * leavesMs(input.time, state.leaves, n));
         into.push_back(need);
@@ -53,39 +55,39 @@ void redistribute(const SelectInput& input, double shareMs, SelectState& state, 
         most += cap;
     }
     double low = 0.0, high = 0.0;
-    for (std::size_t i = 0; i < count; ++i) high = std::max(high, into[first + 2 * i + 1] / state.priorities[i]);
+    for (std::size_t i = 0; i < count; ++i) high = std::max(high, into[2 * i + 1] / state.priorities[i]);
     if (needs < shareMs && shareMs < most) {
         for (int i = 0; i < kHalvings; ++i) {
             const double middle = 0.5 * (low + high);
-            (sumAt(middle, state, into, first) < shareMs ? low : high) = middle;
+            (sumAt(middle, state) < shareMs ? low : high) = middle;
         }
     }
     // Between the last two lambdas the sum is as good as linear.
-    const double atLow = sumAt(low, state, into, first), atHigh = sumAt(high, state, into, first);
+    const double atLow = sumAt(low, state), atHigh = sumAt(high, state);
     const double part = atHigh > atLow ? (shareMs - atLow) / (atHigh - atLow) : 1.0;
     for (std::size_t i = 0; i < count; ++i) {
-        const double need = into[first + 2 * i], cap = into[first + 2 * i + 1];
+        const double need = into[2 * i], cap = into[2 * i + 1];
         const double lower = std::clamp(low * state.priorities[i], need, cap);
         const double upper = std::clamp(high * state.priorities[i], need, cap);
-        into[first + i] = needs >= shareMs ? shareMs * need / needs
+        into[i] = needs >= shareMs ? shareMs * need / needs
                           : most <= shareMs ? shareMs * cap / most
                                             : std::lerp(lower, upper, part);
     }
-    into.resize(first + count);
+    into.resize(count);
 }
 
 }  // namespace
 
-void appendSlices(const SelectInput& input, double shareMs, SelectState& state, SelectCounters& counters,
-                  std::vector<double>& into) {
+void shareOut(const SelectInput& input, double shareMs, SelectState& state, SelectCounters& counters) {
+    state.slices.clear();
     if (input.effects[Effect::redistribution]) {
         counters.effectWork[Effect::redistribution] += state.group.size();
-        redistribute(input, shareMs, state, into);
+        redistribute(input, shareMs, state);
         return;
     }
     double sum = 0.0;
     for (const double priority : state.priorities) sum += priority;
-    for (const double priority : state.priorities) into.push_back(shareMs / sum * priority);
+    for (const double priority : state.priorities) state.slices.push_back(shareMs / sum * priority);
 }
 
 }  // namespace fb

@@ -6,10 +6,9 @@
 
 namespace fb {
 
-// The slices of state.group, appended to `into`: shareMs * p_i / sum of p. With redistribution on,
+// The slices of state.group into state.slices: shareMs * p_i / sum of p. With redistribution on,
 // clamp(lambda * p_i, need_i, 1.25 times what all leaves below would take), lambda such that they add up to shareMs; where even the
 // needs are more than that, or all leaves less, in proportion to those. Finite and > 0 for a share > 0.
-void appendSlices(const SelectInput& input, double shareMs, SelectState& state, SelectCounters& counters,
-                  std::vector<double>& into);
+void shareOut(const SelectInput& input, double shareMs, SelectState& state, SelectCounters& counters);
 
 }  // namespace fb

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "select/slow_selection.h"
-#include "worlds/random_worlds.h"
+#include "worlds/random_camera.h"
 #include "worlds/tiny_walk.h"
 
 namespace fb {
@@ -27,19 +27,6 @@ SelectSettings randomSelectSettings(Random& r, PolicyId policy) {
     s.minDistance = r.uniform(0.1, 3.0);
     s.lookAhead = r.uniform(0.0, 1.0);
     return s;
-}
-
-void moveCamera(Random& r, TinyWalk& walk, bool cut) {
-    Camera camera = walk.view.camera;
-    if (cut) {
-        const glm::dvec3 eye = randomPoint(r, 25.0), target = randomPoint(r, 10.0);
-        camera = lookAt(eye, target, glm::dvec3(0, 1, 0));
-    } else {
-        camera.eye += randomPoint(r, 0.4);
-        const glm::dvec3 axis = glm::normalize(randomPoint(r, 1.0) + glm::dvec3(1e-3));
-        camera.orientation = glm::normalize(glm::angleAxis(r.uniform(-0.1, 0.1), axis) * camera.orientation);
-    }
-    walk.view = makeView(camera, randomPoint(r, 5.0), 160, 90);
 }
 
 void changeResidency(Random& r, TinyWalk& walk) {

@@ -26,9 +26,8 @@ TinyWalk unequal() {
 
 std::vector<double> slicesOf(TinyWalk& walk, double shareMs) {
     gatherGroup(walk.input(), 0, walk.state, walk.selection);
-    std::vector<double> slices;
-    appendSlices(walk.input(), shareMs, walk.state, walk.selection.counters, slices);
-    return slices;
+    shareOut(walk.input(), shareMs, walk.state, walk.selection.counters);
+    return walk.state.slices;
 }
 
 TEST(Slices, AreInProportionToPriorities) {
@@ -70,19 +69,19 @@ RC_GTEST_PROP(Slices, AddUpToTheShareAndKeepToTheirBounds, ()) {
     walk.effects[Effect::redistribution] = r.index(4) != 0;
     const double share = std::pow(10.0, r.uniform(-3.0, 3.0));
     gatherGroup(walk.input(), kNoNode, walk.state, walk.selection);
-    std::vector<double> slices = {-7.0};  // what is there stays
-    appendSlices(walk.input(), share, walk.state, walk.selection.counters, slices);
-    RC_ASSERT(slices.size() == walk.state.group.size() + 1);
-    RC_ASSERT(slices[0] == -7.0);
-    if (slices.size() == 1) return;
+    walk.state.slices = {-7.0};  // of the group before
+    shareOut(walk.input(), share, walk.state, walk.selection.counters);
+    const std::vector<double>& slices = walk.state.slices;
+    RC_ASSERT(slices.size() == walk.state.group.size());
+    if (slices.empty()) return;
     double needs = 0.0;
     for (const NodeId n : walk.state.group) needs += timeNeeded(walk.input(), n);
-    const double sum = std::accumulate(slices.begin() + 1, slices.end(), 0.0);
+    const double sum = std::accumulate(slices.begin(), slices.end(), 0.0);
     RC_ASSERT(std::abs(sum - share) <= 1e-6 * share);
-    for (std::size_t i = 1; i < slices.size(); ++i) {
+    for (std::size_t i = 0; i < slices.size(); ++i) {
         RC_ASSERT(slices[i] > 0.0);
         if (walk.effects[Effect::redistribution] && needs < share)
-            RC_ASSERT(slices[i] >= timeNeeded(walk.input(), walk.state.group[i - 1]) * (1.0 - 1e-9));
+            RC_ASSERT(slices[i] >= timeNeeded(walk.input(), walk.state.group[i]) * (1.0 - 1e-9));
     }
 }
 

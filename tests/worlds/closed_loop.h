@@ -42,21 +42,7 @@ struct ClosedLoop {
         input.time = time;
         selectFront(input, walk.state, walk.selection);
         const Selection& s = walk.selection;
-        bool onlyRoots = true;
-        for (NodeId n : s.front) onlyRoots = onlyRoots && n < walk.hierarchy.rootCount;
-        FrameFeatures features;
-        features.frame = walk.frame;
-        features.frontCost = s.frontCost;
-        features.fixedMs = time.fixedMs;
-        features.estimateMs = s.estimateMs;
-        features.triangles = s.triangles;
-        features.work = {1e-3 * static_cast<double>(s.texturedTriangles),
-                         1e-3 * static_cast<double>(s.triangles - s.texturedTriangles),
-                         static_cast<double>(s.front.size()), 0.0, 1.0};
-        features.refusedGroups = s.counters.refusedGroups;
-        features.onlyRoots = onlyRoots;
-        features.shareFeedback = walk.effects[Effect::shareFeedback];
-        ring.push(features);
+        ring.push(featuresOf(input, s, 0.0));
         const FrameWork work = modelWork(settings.model, walk.hierarchy, s.front, 0.0, 0, counts);
         actualMs = measuredMs ? *measuredMs : modelFrameMs(settings.model, work, walk.frame, counts);
         walk.measured = {s.triangles, actualMs};
