@@ -8,7 +8,6 @@
 #include "app/commands.h"
 #include "app/guarded_child.h"
 #include "app/headless.h"
-#include "app/option_text.h"
 #include "app/progress_display.h"
 #include "settings/knob_table.h"
 #include "settings/preset.h"
@@ -77,7 +76,7 @@ void printTable(const Calibration& calibration, const std::string& from) {
 Preset makePreset(const CalibrateCommand& command, const Workbench& w, const Calibration& calibration,
                   const std::filesystem::path& file) {
     const std::string device = w.clock == ClockKind::model ? "the simulated device" : w.renderer->deviceName();
-    Preset preset{file.stem().string(), "Calibrated with " + w.scene->info.name + " on " + device + "; other knobs as in " + command.from,
+    Preset preset{file.stem().string(), "Calibrated with " + w.scene->info.name + " on " + device + "; other knobs as in " + command.headless.preset,
                   w.settings, calibration.facts};
     for (const CalibratedConstant& c : calibration.constants) {
         preset.notes.push_back(c.knob + ": " + (c.kept.empty() ? c.spread : "kept, for " + c.kept));
@@ -90,18 +89,11 @@ Preset makePreset(const CalibrateCommand& command, const Workbench& w, const Cal
 Result<void> runCalibrate(const CalibrateCommand& command) {
     std::unique_ptr<OffscreenContext> context;
     Workbench w;
-    Result<Preset> from = loadPreset(command.from);
-    if (!from) return passOn(from);
-    w.settings = from->settings;
-    if (Result<void> taken = applySets(w.settings, command.sets); !taken) return taken;
-    Result<ClockKind> clock = parseClock(command.clock);
-    if (!clock) return passOn(clock);
-    w.clock = *clock;
-    Result<glm::ivec2> size = parseSize(command.size);
+    Result<glm::ivec2> size = takeOptions(w, command.headless);
     if (!size) return passOn(size);
     Result<std::filesystem::path> file = chooseFile(command);
     if (!file) return passOn(file);
-    if (Result<void> opened = openHeadless(w, context, command.scene, false); !opened) return opened;
+    if (Result<void> opened = openHeadless(w, context, command.headless.scene, false); !opened) return opened;
 
     watchForStop();
     Result<Calibration> calibration = measureConstants(w, *size, showProgress(ProgressStyle::automatic));
@@ -110,7 +102,7 @@ Result<void> runCalibrate(const CalibrateCommand& command) {
     if (stopWanted()) return failure({}, {}, "stopped");
     if (Result<void> saved = savePreset(makePreset(command, w, *calibration, *file), *file); !saved) return saved;
     if (!calibration->warning.empty()) std::fprintf(stderr, "note: %s\n", calibration->warning.c_str());
-    printTable(*calibration, from->name);
+    printTable(*calibration, std::filesystem::path(command.headless.preset).stem().string());
     std::printf("saved %s\n", file->string().c_str());
     return {};
 }

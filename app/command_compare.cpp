@@ -11,7 +11,6 @@
 #include "base/file_io.h"
 #include "measure/comparison.h"
 #include "settings/knob_table.h"
-#include "settings/preset.h"
 
 namespace fb {
 namespace {
@@ -34,25 +33,15 @@ std::vector<std::string> chosenPolicies(const CompareCommand& command) {
 
 Result<void> prepare(const CompareCommand& command, Comparison& comparison) {
     Workbench& w = comparison.workbench;
-    Result<Preset> preset = loadPreset(command.preset);
-    if (!preset) return passOn(preset);
-    w.settings = preset->settings;
-    if (Result<void> taken = applySets(w.settings, command.sets); !taken) return taken;
-    Result<ClockKind> clock = parseClock(command.clock);
-    if (!clock) return passOn(clock);
-    w.clock = *clock;
-    w.onFault = [&comparison](const Error& fault) { comparison.faults.hear(fault); };
-    Result<glm::ivec2> size = parseSize(command.size);
+    Result<glm::ivec2> size = takeOptions(w, command.headless);
     if (!size) return passOn(size);
     comparison.size = *size;
+    w.onFault = [&comparison](const Error& fault) { comparison.faults.hear(fault); };
     if (command.out.empty()) return usageFailure("--out", "must name a folder");
     if (Result<void> made = makeFolder(command.out); !made) return made;
     Settings tried = w.settings;  // every name and number is looked at before the first walk
     for (const std::string& policy : chosenPolicies(command)) {
-        if (Result<void> taken = setFromText(tried, "select.policy", policy, "--policy"); !taken) {
-            taken.error().kind = Error::Kind::usage;
-            return taken;
-        }
+        if (Result<void> taken = takePolicy(tried, policy); !taken) return taken;
     }
     std::vector<double> targets = command.targets;
     if (targets.empty()) targets.push_back(w.settings.control.targetMs);
@@ -62,7 +51,7 @@ Result<void> prepare(const CompareCommand& command, Comparison& comparison) {
             return taken;
         }
     }
-    if (Result<void> opened = openHeadless(w, comparison.context, command.scene, false); !opened) return opened;
+    if (Result<void> opened = openHeadless(w, comparison.context, command.headless.scene, false); !opened) return opened;
     comparison.scene = w.scene->folder;
     w.knownConstants = w.control.measured;  // the same for all
     for (const std::string& path : command.paths) {
@@ -76,7 +65,7 @@ Result<void> prepare(const CompareCommand& command, Comparison& comparison) {
 
 Result<void> walkOnce(const CompareCommand& command, Comparison& comparison, ComparedWalk& walk) {
     Workbench& w = comparison.workbench;
-    if (Result<void> set = setFromText(w.settings, "select.policy", walk.policy, "--policy"); !set) return set;
+    if (Result<void> taken = takePolicy(w.settings, walk.policy); !taken) return taken;
     w.settings.control.targetMs = walk.targetMs;
     if (Result<void> opened = openScene(w, comparison.scene); !opened) return opened;
     Result<WalkPlan> plan = planWalk(w, walk.path, comparison.size, command.frames, command.settle);

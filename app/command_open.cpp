@@ -8,6 +8,7 @@
 #include "app/describe_walk.h"
 #include "app/frame.h"
 #include "app/guarded_child.h"
+#include "app/measure_frame.h"
 #include "app/session.h"
 #include "base/clock.h"
 

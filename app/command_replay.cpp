@@ -10,8 +10,6 @@
 #include "app/walk_path.h"
 #include "base/file_io.h"
 #include "measure/front_csv.h"
-#include "settings/knob_table.h"
-#include "settings/preset.h"
 
 namespace fb {
 namespace {
@@ -24,29 +22,17 @@ struct Replay {
     FaultLog faults{[](const Error& fault) { std::fprintf(stderr, "frontbench: %s\n", fault.oneLine().c_str()); }};
 };
 
-Result<void> readSettings(const ReplayCommand& command, Settings& settings) {
-    Result<Preset> preset = loadPreset(command.preset);
-    if (!preset) return passOn(preset);
-    settings = preset->settings;
-    const std::vector<std::string>& sets = command.sets;
-    if (Result<void> taken = applySets(settings, sets); !taken || command.policy.empty()) return taken;
-    Result<void> taken = setFromText(settings, "select.policy", command.policy, "--policy");
-    if (!taken) taken.error().kind = Error::Kind::usage;
-    return taken;
-}
-
 Result<void> prepare(const ReplayCommand& command, Replay& replay) {
     Workbench& w = replay.workbench;
-    if (Result<void> read = readSettings(command, w.settings); !read) return read;
-    Result<ClockKind> clock = parseClock(command.clock);
-    if (!clock) return passOn(clock);
-    w.clock = *clock;
-    w.onFault = [&replay](const Error& fault) { replay.faults.hear(fault); };
-    Result<glm::ivec2> size = parseSize(command.size);
+    Result<glm::ivec2> size = takeOptions(w, command.headless);
     if (!size) return passOn(size);
+    if (!command.policy.empty()) {
+        if (Result<void> taken = takePolicy(w.settings, command.policy); !taken) return taken;
+    }
+    w.onFault = [&replay](const Error& fault) { replay.faults.hear(fault); };
     if (command.out.empty()) return usageFailure("--out", "must name a folder");
     if (Result<void> made = makeFolder(command.out); !made) return made;
-    Result<void> opened = openHeadless(w, replay.context, command.scene, command.screenshots > 0);
+    Result<void> opened = openHeadless(w, replay.context, command.headless.scene, command.screenshots > 0);
     if (!opened) return opened;
     Result<WalkPlan> plan = planWalk(w, command.path, *size, command.frames, command.settle);
     if (!plan) return passOn(plan);
@@ -80,7 +66,7 @@ Result<void> runReplay(const ReplayCommand& command) {
     records.reserve(std::min<std::uint64_t>(replay.plan.frames, 100000));
     replay.workbench.onRecord = [&records](const FrameRecord& record) { records.push_back(record); };
     if (Result<void> walked = walk(command, replay); !walked) return walked;
-    const ReplayReport report = describeWalk(replay.workbench, {command.preset, command.path}, std::move(records));
+    const ReplayReport report = describeWalk(replay.workbench, {command.headless.preset, command.path}, std::move(records));
     if (Result<void> written = writeReport(report, command.out); !written) return written;
     const Workbench& w = replay.workbench;
     const std::string front = frontCsv(w.scene->hierarchy, w.selection.reached, w.residency.loaded, w.view);

@@ -56,15 +56,20 @@ struct CityCommand {
 [[nodiscard]] Result<void> runPresetsShow(const std::string& name);
 [[nodiscard]] Result<void> runPresetsDiff(const std::string& from, const std::string& to);
 
-struct ReplayCommand {
+// What every command that draws without a window takes.
+struct HeadlessOptions {
     std::filesystem::path scene;  // empty: the built-in city
-    std::string path = "walk-to-fly";
     std::string preset = "default";
-    std::string policy;  // empty: the preset's
     std::string clock = "real";
-    std::uint64_t frames = 0;  // 0: the whole path
     std::string size = "1280x720";
     std::vector<std::string> sets;
+};
+
+struct ReplayCommand {
+    HeadlessOptions headless;
+    std::string path = "walk-to-fly";
+    std::string policy;  // empty: the preset's
+    std::uint64_t frames = 0;  // 0: the whole path
     std::filesystem::path out;
     std::uint32_t screenshots = 0;  // pictures spread over the walk
     bool settle = false;            // load what the first view wants before the walk starts
@@ -73,27 +78,20 @@ struct ReplayCommand {
 
 // Every policy on every path at every target, from the same state each time.
 struct CompareCommand {
-    std::filesystem::path scene;  // empty: the built-in city
+    CompareCommand() { headless.clock = "model"; }
+    HeadlessOptions headless;
     std::vector<std::string> paths = {"walk", "fly"};
     std::vector<std::string> policies;  // empty: all
     std::vector<double> targets;        // ms; empty: the preset's
-    std::string preset = "default";
-    std::string clock = "model";
-    std::uint64_t frames = 0;  // 0: the whole path
+    std::uint64_t frames = 0;           // 0: the whole path
     std::uint64_t rounds = 1;
-    std::string size = "1280x720";
-    std::vector<std::string> sets;
     std::filesystem::path out;
     bool settle = false;
 };
 [[nodiscard]] Result<void> runCompare(const CompareCommand& command);
 
 struct CalibrateCommand {
-    std::filesystem::path scene;  // empty: the built-in city
-    std::string from = "default";
-    std::string clock = "real";
-    std::string size = "1280x720";
-    std::vector<std::string> sets;
+    HeadlessOptions headless;
     std::filesystem::path out;  // empty: `calibrated` among the user's presets
 };
 [[nodiscard]] Result<void> runCalibrate(const CalibrateCommand& command);

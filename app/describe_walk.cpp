@@ -38,7 +38,7 @@ ReplayReport describeWalk(const Workbench& w, const WalkNames& names, std::vecto
         // Their time is not measured one by one: null in the report.
         report.effects.push_back({std::string(row.name), std::string(modeName(row.mode(w.settings.effects))),
                                   w.effectFrames[static_cast<std::size_t>(row.effect)],
-                                  std::numeric_limits<double>::quiet_NaN()});
+                                  std::numeric_limits<double>::quiet_NaN(), w.effectWork[row.effect]});
     }
     return report;
 }

@@ -1,32 +1,12 @@
 #include "app/frame.h"
 
-#include <algorithm>
-#include <chrono>
-#include <thread>
-
+#include "app/measure_frame.h"
+#include "app/record_frame.h"
 #include "base/clock.h"
-#include "control/model_device.h"
 #include "select/coverage.h"
-#include "select/screen_error.h"
 
 namespace fb {
 namespace {
-
-FrameRecord& beginRecord(Workbench& w, const FrameInput& input) {
-    ++w.frame;
-    const double dt = std::clamp(input.dtSeconds, 0.0, 0.1);
-    w.nowSeconds += dt;
-    FrameRecord& record = w.pending[w.frame % w.pending.size()];
-    record = {};
-    record.frame = w.frame;
-    record.timeSeconds = w.nowSeconds;
-    record.dtMs = 1000.0 * dt;
-    record.eye = input.camera.eye;
-    record.speedMetresPerSecond = glm::length(input.velocity);
-    record.targetMs = w.settings.control.targetMs;
-    record.uiMs = w.lastUiMs;
-    return record;
-}
 
 void decideFrameEffects(Workbench& w, const FrameInput& input, FrameRecord& record) {
     FrameFacts facts;
@@ -102,80 +82,17 @@ void chooseFront(Workbench& w, const View& view, FrameRecord& record) {
     record.selectUs = 1000.0 * millisecondsSince(start);
 }
 
-void recordSelection(Workbench& w, const View& view, FrameRecord& record) {
-    const Selection& s = w.selection;
-    w.frontHash = chainFrontHash(w.frontHash, s.front);
-    record.frontHash = w.frontHash;
-    record.frontNodes = static_cast<std::uint32_t>(s.front.size());
-    for (NodeId n : s.front) ++record.levels[std::min<std::size_t>(w.scene->hierarchy.level[n], kMaxLevels - 1)];
-    record.triangles = s.triangles;
-    record.visited = s.counters.visited;
-    record.togglesUp = s.counters.togglesUp;
-    record.togglesDown = s.counters.togglesDown;
-    record.pingPongs = s.counters.pingPongs;
-    std::copy(std::begin(s.counters.boundBy), std::end(s.counters.boundBy), record.boundBy.begin());
-    const auto boundBy = [&](BoundBy reason) { return record.boundBy[static_cast<std::size_t>(reason)]; };
-    record.moreDetailAvailable = boundBy(BoundBy::leaf) + boundBy(BoundBy::view) < record.frontNodes;
-    record.refusedGroups = s.counters.refusedGroups;
-    record.skippedRoots = s.counters.skippedRoots;
-    w.seenFront.clear();
-    for (const Reached& r : s.reached) {
-        if (r.expanded) continue;
-        record.refusedNeedMs += r.needMs;
-        // A node whose children are all out of view shows nothing of itself but its box.
-        if (r.boundBy != BoundBy::view) w.seenFront.push_back(r.node);
-    }
-    const FrontError error = frontError(w.scene->hierarchy, w.seenFront, view);
-    record.errorPixelsMax = error.maxPixels;
-    record.errorPixelsMean = error.meanPixels;
-    record.overheadMs = w.control.overheadMs;
-    record.vTimeMs = w.control.vTimeMs;
-    record.shareMs = shareMs(w.control, w.settings.control);
-    record.estimateMs = s.estimateMs;
-    for (std::size_t i = 0; i < kEffectCount; ++i)
-        record.effectWork.count[i] += s.counters.effectWork.count[i] + w.plan.groups.effectWork.count[i];
-    if (w.effects[Effect::shareFeedback]) ++record.effectWork[Effect::shareFeedback];
-    for (std::size_t i = 0; i < kEffectCount; ++i) w.effectWork.count[i] += record.effectWork.count[i];
-}
-
-void drawFront(Workbench& w, const View& view, FrameRecord& record) {
-    if (!w.renderer) return;
+DrawCounters drawFront(Workbench& w, const View& view, FrameRecord& record) {
+    if (!w.renderer) return {};
     const ScopedMilliseconds timer(record.drawCpuMs);
     const DrawInput input{w.scene->hierarchy,  w.selection.front, view,
                           w.settings.draw,     w.effects,         glm::vec3(w.scene->info.upVector())};
-    w.renderer->draw(input, w.frame);
+    const DrawCounters drawn = w.renderer->draw(input, w.frame);
     if (!w.renderer->fault().empty()) {
         record.frame = 0;  // not drawn: its time says nothing
         if (w.onFault) w.onFault({Error::Kind::failed, "drawing", {}, w.renderer->fault(), {}});
     }
-}
-
-void feedBackTime(Workbench& w, std::uint64_t frame, double actualMs) {
-    const FrameFeatures* features = w.features.find(frame);
-    FrameRecord& record = w.pending[frame % w.pending.size()];
-    if (!features || record.frame != frame) return;  // too late to be of use
-    record.actualMs = actualMs;
-    feedBack(w.control, w.settings.control, *features, actualMs);
-    w.measured = {features->triangles, actualMs};
-    record.infeasible = w.control.infeasible;
-    w.history.push(record);
-    if (w.onRecord) w.onRecord(record);
-    record.frame = 0;  // a second time for it would be another's
-}
-
-void measureFrame(Workbench& w) {
-    DrawTime time;
-    if (w.clock == ClockKind::real) {
-        while (w.renderer->takeTime(time)) feedBackTime(w, time.frame, time.milliseconds);
-        return;
-    }
-    while (w.renderer && w.renderer->takeTime(time)) continue;  // model time counts, not the pictures'
-    const Selection& s = w.selection;
-    const ModelSettings& model = w.settings.model;
-    const FrameRecord& record = w.pending[w.frame % w.pending.size()];
-    const double megapixels = model.fillMsPerMegapixel > 0.0 ? coveredMegapixels(w.scene->hierarchy, s.front, w.view) : 0.0;
-    const FrameWork work = modelWork(model, w.scene->hierarchy, s.front, megapixels, record.uploadBytes, w.modelCounts);
-    feedBackTime(w, w.frame, modelFrameMs(model, work, w.frame, w.modelCounts));
+    return drawn;
 }
 
 }  // namespace
@@ -189,16 +106,8 @@ void runFrame(Workbench& w, const FrameInput& input) {
     planFrameLoads(w, view, record);
     chooseFront(w, view, record);
     recordSelection(w, view, record);
-    drawFront(w, view, record);
+    recordEffectWork(w, drawFront(w, view, record), record);
     measureFrame(w);
-}
-
-void waitForTimes(Workbench& w) {
-    for (int attempt = 0; attempt < 100 && w.clock == ClockKind::real; ++attempt) {
-        measureFrame(w);
-        if (!w.history.size() || w.history.newest().frame == w.frame) return;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
 }
 
 }  // namespace fb

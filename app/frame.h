@@ -17,7 +17,4 @@ struct FrameInput {
 // workbench.history when its time is known: in the same frame, or some frames later on a GPU.
 void runFrame(Workbench& workbench, const FrameInput& input);
 
-// After the last frame: takes in times that a GPU still owes.
-void waitForTimes(Workbench& workbench);
-
 }  // namespace fb

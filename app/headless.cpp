@@ -1,14 +1,30 @@
 #include "app/headless.h"
 
-#include "app/commands.h"
+#include "app/option_text.h"
 #include "base/program_folder.h"
+#include "settings/knob_table.h"
+#include "settings/preset.h"
 
 namespace fb {
+namespace {
 
 Result<ClockKind> parseClock(const std::string& text) {
     if (text == "real") return ClockKind::real;
     if (text == "model") return ClockKind::model;
     return usageFailure("--clock " + text, "is not a clock", "real or model");
+}
+
+}  // namespace
+
+Result<glm::ivec2> takeOptions(Workbench& w, const HeadlessOptions& options) {
+    Result<Preset> preset = loadPreset(options.preset);
+    if (!preset) return passOn(preset);
+    w.settings = preset->settings;
+    if (Result<void> taken = applySets(w.settings, options.sets); !taken) return passOn(taken);
+    Result<ClockKind> clock = parseClock(options.clock);
+    if (!clock) return passOn(clock);
+    w.clock = *clock;
+    return parseSize(options.size);
 }
 
 Result<void> openHeadless(Workbench& w, std::unique_ptr<OffscreenContext>& context, const std::filesystem::path& scene,

@@ -37,6 +37,12 @@ Result<void> applySets(Settings& settings, const std::vector<std::string>& sets)
     return {};
 }
 
+Result<void> takePolicy(Settings& settings, const std::string& name) {
+    Result<void> taken = setFromText(settings, "select.policy", name, "--policy");
+    if (!taken) taken.error().kind = Error::Kind::usage;
+    return taken;
+}
+
 Result<glm::ivec2> parseSize(const std::string& text) {
     const std::size_t x = text.find('x');
     glm::ivec2 size(0);

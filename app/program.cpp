@@ -88,17 +88,24 @@ void addSceneCommands(CLI::App& program, CommandLine& line) {
     check->callback([&line] { line.run = [&line] { return runCheck(line.scene, line.progress); }; });
 }
 
+// `preset` is the option's name: of calibrate it gives only what is not measured.
+void addHeadless(CLI::App* command, HeadlessOptions& o, const std::string& preset, const std::string& presetHelp) {
+    command->add_option("SCENE", o.scene, "A scene's folder; the built-in city when left out");
+    command->add_option(preset, o.preset, presetHelp);
+    command->add_option("--clock", o.clock, "real: times measured on this machine; model: those of the simulated device, the same everywhere");
+    command->add_option("--size", o.size, "Size of the picture, as in 1280x720");
+    command->add_option("--set", o.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
+}
+
+constexpr const char* kPresetHelp = "A preset's name or .toml file";
+
 void addReplay(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("replay", "Walk a path without a window and report");
     ReplayCommand& r = line.replay;
-    command->add_option("SCENE", r.scene, "A scene's folder; the built-in city when left out");
+    addHeadless(command, r.headless, "--preset", kPresetHelp);
     command->add_option("--path", r.path, "still walk drive fly walk-to-fly shake jump, or a .toml file");
-    command->add_option("--preset", r.preset, "A preset's name or .toml file");
     command->add_option("--policy", r.policy, "Selection policy instead of the preset's");
-    command->add_option("--clock", r.clock, "real: measured time; model: simulated, the same on every machine");
     command->add_option("--frames", r.frames, "Number of frames; 0 or left out: the whole path")->check(kNotNegative);
-    command->add_option("--size", r.size, "Size of the picture, as in 1280x720");
-    command->add_option("--set", r.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
     command->add_option("--screenshot", r.screenshots, "Save this many frames, spread over the walk, as PNG")->check(kNotNegative);
     command->add_flag("--settle", r.settle, "Load what the first view wants before the walk starts");
     command->add_option("--out", r.out, "Folder for frames.csv, summary.json, plots and pictures")->required();
@@ -108,16 +115,12 @@ void addReplay(CLI::App& program, CommandLine& line) {
 void addCompare(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("compare", "Policies against each other: every path and target, the same start each time");
     CompareCommand& c = line.compare;
-    command->add_option("SCENE", c.scene, "A scene's folder; the built-in city when left out");
+    addHeadless(command, c.headless, "--preset", kPresetHelp);
     command->add_option("--path", c.paths, "still walk drive fly walk-to-fly shake jump, or .toml files");
     command->add_option("--policy", c.policies, "Selection policies; left out: all");
     command->add_option("--target", c.targets, "Target times in ms; left out: the preset's");
-    command->add_option("--preset", c.preset, "A preset's name or .toml file");
-    command->add_option("--clock", c.clock, "model: simulated, the same on every machine; real: measured time");
     command->add_option("--frames", c.frames, "Number of frames; 0 or left out: the whole path")->check(kNotNegative);
     command->add_option("--rounds", c.rounds, "Walk everything this often; what else the machine does falls on all alike")->check(CLI::PositiveNumber);
-    command->add_option("--size", c.size, "Size of the picture, as in 1280x720");
-    command->add_option("--set", c.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
     command->add_flag("--settle", c.settle, "Load what the first view wants before each walk starts");
     command->add_option("--out", c.out, "Folder for compare.csv")->required();
     command->callback([&line] { line.run = [&line] { return runCompare(line.compare); }; });
@@ -126,12 +129,8 @@ void addCompare(CLI::App& program, CommandLine& line) {
 void addCalibrate(CLI::App& program, CommandLine& line) {
     CLI::App* command = program.add_subcommand("calibrate", "Measure the constants of the cost model and save them as a preset");
     CalibrateCommand& c = line.calibrate;
-    command->add_option("SCENE", c.scene, "A scene's folder; the built-in city when left out");
+    addHeadless(command, c.headless, "--from", "Preset (name or .toml file) that gives all other knobs");
     command->add_option("--out", c.out, "The preset's file, NAME.toml; left out: `calibrated` among your presets");
-    command->add_option("--clock", c.clock, "real: times of drawing on this machine; model: those of the simulated device");
-    command->add_option("--size", c.size, "Size of the picture, as in 1280x720");
-    command->add_option("--from", c.from, "Preset (name or .toml file) that gives all other knobs");
-    command->add_option("--set", c.sets, "Set a knob: NAME=VALUE, as `frontbench knobs` lists them");
     command->callback([&line] { line.run = [&line] { return runCalibrate(line.calibrate); }; });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/guarded_child.h"
+#include "app/measure_frame.h"
 #include "base/clock.h"
 
 namespace fb {

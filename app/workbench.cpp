@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/frame.h"
+#include "app/measure_frame.h"
 #include "base/clock.h"
 #include "control/model_device.h"
 

@@ -70,6 +70,8 @@ void drawNodes(const PassInput& input, FrameRing& ring, DrawCounters& counters) 
                                     static_cast<GLsizei>(batch.count), 0);
         ++counters.multiDraws;
         counters.draws += batch.count;
+        if ((batch.variant & kTextured) != 0) counters.texturedDraws += batch.count;
+        if ((batch.variant & kLit) != 0) counters.litDraws += batch.count;
     }
 }
 

@@ -32,6 +32,7 @@ struct DrawInput {
 
 struct DrawCounters {
     std::uint32_t nodes = 0, multiDraws = 0, draws = 0, stateChanges = 0;
+    std::uint32_t texturedDraws = 0, litDraws = 0;  // of nodes, by programs with these effects
     std::uint64_t triangles = 0;
 };
 

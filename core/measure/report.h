@@ -26,6 +26,7 @@ struct ReplayReport {
         std::string name, mode;
         std::uint64_t activeFrames = 0;
         double meanUs = 0.0;
+        std::uint64_t work = 0;  // how often its own arithmetic ran, over all frames
     };
     std::vector<EffectUse> effects;
     std::optional<ImageErrorSummary> image;  // when pictures were compared with a reference

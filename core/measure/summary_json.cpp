@@ -92,7 +92,8 @@ Json effectsOf(const ReplayReport& report) {
         effects.push_back({{"name", use.name},
                            {"mode", use.mode},
                            {"active_frames", use.activeFrames},
-                           {"us_mean", numberOrNull(use.meanUs)}});
+                           {"us_mean", numberOrNull(use.meanUs)},
+                           {"work", use.work}});
     }
     return effects;
 }

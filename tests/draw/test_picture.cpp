@@ -83,11 +83,19 @@ TEST_F(DrawTest, WithoutTexturingShowsTheVertexColoursInOneMultiDraw) {
     EXPECT_EQ(count(image, kWhite), 32);
     EXPECT_EQ(count(image, kGreen), 32);
     EXPECT_EQ(counters.multiDraws, 1u);
+    EXPECT_EQ(counters.texturedDraws, 0u);
+    EXPECT_EQ(counters.litDraws, 0u);
     effects[Effect::texturing] = true;
     const Image textured = picture(world, viewAlongZ({}, 8, 8));
     EXPECT_EQ(count(textured, kWhite), 0);
     EXPECT_EQ(count(textured, kGreen), 32);
     EXPECT_EQ(counters.multiDraws, 2u);
+    EXPECT_EQ(counters.texturedDraws, 1u);
+    EXPECT_EQ(counters.litDraws, 0u);
+    effects[Effect::lighting] = true;
+    (void)picture(world, viewAlongZ({}, 8, 8));
+    EXPECT_EQ(counters.texturedDraws, 1u);
+    EXPECT_EQ(counters.litDraws, 2u);
 }
 
 // 4 x 4 texels of which the diagonal is a hole; a green wall behind.

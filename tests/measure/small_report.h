@@ -27,7 +27,7 @@ inline ReplayReport smallReport() {
                     .evicted = 3,
                     .suspended = 2,
                     .bytes = 4096};
-    report.effects = {{"lighting", "auto", 2, 1.5}};
+    report.effects = {{"lighting", "auto", 2, 1.5, 7}};
 
     FrameRecord a;
     a.frame = 1;

@@ -48,7 +48,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
     EXPECT_EQ(keysOf(json["refused"]), (std::vector<std::string>{"groups_mean", "need_ms_mean"}));
     EXPECT_EQ(keysOf(json["err_px"]), (std::vector<std::string>{"mean", "p95", "max"}));
     EXPECT_EQ(keysOf(json["effects"][0]),
-              (std::vector<std::string>{"name", "mode", "active_frames", "us_mean"}));
+              (std::vector<std::string>{"name", "mode", "active_frames", "us_mean", "work"}));
 }
 
 TEST(SummaryJson, SaysWhatWasReplayed) {
@@ -113,7 +113,7 @@ TEST(SummaryJson, WorksOutMemoryLoadsAndEffects) {
     EXPECT_EQ(json["loads"], Json::parse(R"({"requested": 7, "completed": 5, "suspended": 2, "cancelled": 1,
                                              "evicted": 3, "bytes": 4096, "failed": 4})"));
     EXPECT_EQ(json["effects"],
-              Json::parse(R"([{"name": "lighting", "mode": "auto", "active_frames": 2, "us_mean": 1.5}])"));
+              Json::parse(R"([{"name": "lighting", "mode": "auto", "active_frames": 2, "us_mean": 1.5, "work": 7}])"));
 }
 
 TEST(SummaryJson, SaysNullWhereThereIsNothingToDivideBy) {
