@@ -35,6 +35,7 @@ struct Refinement {
     BoundBy boundBy = BoundBy::leaf;
     bool usable = false;  // children are in view and loaded: it may be expanded
     bool expanded = false;
+    bool isNew = false;     // policy frontbench: not in the picture before, or not there (algorithms section 3)
     double needMs = 0.0, hadMs = 0.0;  // see Reached
 };
 inline constexpr std::uint32_t kNoRefinement = ~std::uint32_t{0};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/check.h"
 #include "select/select_policies.h"
@@ -120,6 +121,9 @@ void selectFront(const SelectInput& input, SelectState& state, Selection& select
     const Camera &now = input.view.camera, &before = state.camera;
     const bool rests = now.eye == before.eye && now.orientation == before.orientation;
     state.restSeconds = rests ? state.restSeconds + input.dtSeconds : 0.0;
+    state.movedMetres = glm::length(now.eye - before.eye);
+    const glm::dquat turn = glm::conjugate(before.orientation) * now.orientation;
+    state.turnedRadians = 2.0 * std::atan2(glm::length(glm::dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
     state.camera = now;
     state.patience = 1.0;
     selection.estimateMs = input.time.fixedMs;

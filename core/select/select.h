@@ -59,6 +59,7 @@ struct SelectState {
     double restSeconds = 0.0;                   // for which the camera has not moved or turned
     double patience = 1.0;                      // of frontbench with a camera at rest (algorithms 3 item 4)
     Camera camera;                              // of the frame before
+    double movedMetres = 0.0, turnedRadians = 0.0;  // the camera since then
     PolicyId policy = PolicyId::lakhia;         // of the frame before
 
     LeavesBelow leaves;

@@ -1,8 +1,11 @@
 // Policy `frontbench`, our own (algorithms section 3): what is drawn stays until something is clearly better. Time that is
-// left goes to the refinement with the largest gain for its time, once it has fitted for a while; time that is missing is
-// taken from where it brings least; and time changes hands only where it brings several times as much there.
+// left goes to the refinement with the largest gain for its time, the sooner the more it gains; time that is missing is
+// taken from where it brings least; and time changes hands only where it brings several times as much there. What was not
+// in the picture before does not wait: nobody sees it switch.
 #include <algorithm>
+#include <cmath>
 
+#include "select/frontbench_marks.h"
 #include "select/givers.h"
 #include "select/select_policies.h"
 
@@ -12,10 +15,11 @@ namespace {
 constexpr double kEnterLess = 0.77, kEnterMore = 1.3;  // of the price: what comes into view, refined before or not
 constexpr double kLeastWait = 0.03;                    // of refine_wait
 constexpr int kFasterWithRoom = 4;
-constexpr double kEmergencyMargins = 3.0, kMostHighMark = 1.05;
 constexpr double kRestFrom = 2.0, kRestFor = 2.0;  // seconds
-constexpr double kUrgent = 4.0;        // times exchange_factor times the price: does not wait
-constexpr double kPriceSeconds = 1.0;  // in which the price falls to a third while nobody is refused
+constexpr double kPriceSeconds = 1.0;              // in which the price falls to a half while nobody is refused
+constexpr double kLeastPrice = 1e-300, kMostHaste = 1e6;
+constexpr double kCutRadians = 0.3;  // by which what is seen moves in the picture in one frame
+constexpr float kWaitedForData = 1e6f;
 
 class Trade {
   public:
@@ -28,8 +32,8 @@ class Trade {
         const double rest = std::clamp((state_.restSeconds - kRestFrom) / kRestFor, 0.0, 1.0);
         patience_ = state_.patience = 1.0 + (s_.restFactor - 1.0) * rest;
         continueFromBefore();
-        weighTotal();
-        if (tooMuch_) {
+        marks_ = frontbenchMarks(in_, in_.time.fixedMs + tree_.drawnMs(), patience_);
+        if (marks_.tooMuch) {
             giveBack();
         } else {
             spend();
@@ -41,39 +45,30 @@ class Trade {
     // Step 2.
     void continueFromBefore() {
         for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-            const NodeId n = tree_.nodes[i].node;
-            const bool wasSeen = state_.wasSeen(n, in_.frame);
-            state_.seenFrame[n] = in_.frame;
-            if (!tree_.nodes[i].usable) {
-                set(n, false);
+            Refinement& r = tree_.nodes[i];
+            const bool wasSeen = state_.wasSeen(r.node, in_.frame);
+            state_.seenFrame[r.node] = in_.frame;
+            r.isNew = !wasSeen || isElsewhere(r.node);
+            if (!r.usable) {
+                set(r.node, false);
+                if (r.childCount > 0) state_.waited[r.node] = kWaitedForData;
                 continue;
             }
             if (!wasSeen) {
-                const bool before = state_.refined[n] != 0;
+                const bool before = state_.refined[r.node] != 0;
                 const double bar = state_.price * (before ? kEnterLess : kEnterMore);
-                set(n, state_.price > 0.0 ? tree_.nodes[i].value > bar : before);
+                set(r.node, state_.price > 0.0 ? r.value > bar : before);
             }
-            if (state_.refined[n] != 0) tree_.expand(i, in_, state_, selection_);
+            if (state_.refined[r.node] != 0) tree_.expand(i, in_, state_, selection_);
         }
     }
 
-    // Step 3: over seconds the device is as fast as it was over seconds; in an emergency, as it was just now.
-    void weighTotal() {
-        const double nowMs = in_.time.fixedMs + tree_.drawnMs();
-        totalMs_ = nowMs * in_.time.slowRatio;
-        // What the estimate cannot tell from noise must switch nothing.
-        const double marginMs = s_.margin * in_.time.residualMs, target = in_.targetMs;
-        const auto mark = [&](double of) { return target * (1.0 + patience_ * (of - 1.0)); };
-        const double emergencyMs =
-            std::max(mark(s_.emergencyMark), target + kEmergencyMargins * patience_ * marginMs);
-        if (nowMs > emergencyMs) totalMs_ = std::max(totalMs_, nowMs);
-        middleMs_ = target - patience_ * marginMs;
-        const double limitMs =
-            std::clamp(target + patience_ * marginMs, mark(s_.highMark), mark(std::max(kMostHighMark, s_.highMark)));
-        // Time is spent only where it is there over seconds and right now.
-        tooMuch_ = totalMs_ > limitMs;
-        if (!tooMuch_) totalMs_ = std::max(totalMs_, nowMs);
-        scale_ = nowMs > 0.0 ? totalMs_ / nowMs : 1.0;
+    // Whether the camera has moved or turned so much in one frame that the node's picture is another: a cut.
+    [[nodiscard]] bool isElsewhere(NodeId n) const {
+        const Box3f& bounds = in_.hierarchy.bounds[n];
+        const Box3d box{glm::dvec3(bounds.min), glm::dvec3(bounds.max)};
+        const double distance = glm::length(box.centre() - in_.view.camera.eye);
+        return state_.movedMetres > (kCutRadians - state_.turnedRadians) * distance;
     }
 
     // Step 4.
@@ -87,7 +82,7 @@ class Trade {
             std::ranges::push_heap(heap, order);
         };
         for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) offer(i);
-        while (totalMs_ > middleMs_ && !heap.empty()) {
+        while (marks_.totalMs > marks_.middleMs && !heap.empty()) {
             std::ranges::pop_heap(heap, order);
             const std::uint32_t least = heap.back();
             heap.pop_back();
@@ -102,59 +97,76 @@ class Trade {
 
     // Step 5.
     void spend() {
-        const double unused = middleMs_ > 0.0 ? 1.0 - totalMs_ / middleMs_ : 0.0;
-        const double wait = patience_ * s_.refineWait * std::clamp(1.0 - unused / s_.urgency, kLeastWait, 1.0);
-        const std::int64_t mostMade = s_.refineRate * (unused > s_.urgency ? kFasterWithRoom : 1);
-        const ByValue order{tree_};
-        std::vector<std::uint32_t>& heap = state_.heap;
-        heap.clear();
-        for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-            if (tree_.nodes[i].usable && !tree_.nodes[i].expanded) heap.push_back(i);
-        }
-        std::ranges::make_heap(heap, order);
+        const double unused = marks_.middleMs > 0.0 ? 1.0 - marks_.totalMs / marks_.middleMs : 0.0;
+        waitSeconds_ = patience_ * s_.refineWait * std::clamp(1.0 - unused / s_.urgency, kLeastWait, 1.0);
+        leftToMake_ = s_.refineRate * (unused > s_.urgency ? kFasterWithRoom : 1);
         const double priceBefore = state_.price;
         double bestRefused = 0.0;
-        std::int64_t made = 0, failed = 0;
-        while (!heap.empty()) {
-            std::ranges::pop_heap(heap, order);
-            const std::uint32_t best = heap.back();
-            heap.pop_back();
+        std::int64_t failed = 0;
+        state_.heap.clear();
+        offerFrom(0);
+        while (!state_.heap.empty()) {
+            std::ranges::pop_heap(state_.heap, ByValue{tree_});
+            const std::uint32_t best = state_.heap.back();
+            state_.heap.pop_back();
             // A giver of an exchange takes its children's refinements with it.
             if (!tree_.isReached(tree_.nodes[best])) continue;
-            // The search is over, but for what takes no more time.
-            if (failed >= s_.refineRate && tree_.nodes[best].extraMs > 0.0) {
+            const bool isFree = extraMs(best) <= 0.0;
+            // So many better ones wait for time that the others leave it to them.
+            if (failed == s_.refineRate && !isFree) {
                 refuse(tree_.nodes[best], BoundBy::time);
-                continue;
+            } else if (isFree || marks_.totalMs + extraMs(best) <= marks_.middleMs) {
+                spendOn(best, priceBefore);
+            } else {
+                bestRefused = std::max(bestRefused, tree_.nodes[best].value);
+                considerExchange(best);
+                ++failed;
             }
-            float& waited = state_.waited[tree_.nodes[best].node];
-            const double value = tree_.nodes[best].value;
-            if (extraMs(best) <= 0.0 || totalMs_ + extraMs(best) <= middleMs_) {
-                // What brings far more than what was refused last does not wait; nor does anything while nothing is refused.
-                const bool isUrgent = patience_ == 1.0 && value > kUrgent * s_.exchangeFactor * priceBefore;
-                waited += static_cast<float>(in_.dtSeconds);
-                if (isUrgent || (static_cast<double>(waited) >= wait && made < mostMade)) {
-                    expand(best);
-                    ++made;
-                } else {
-                    refuse(tree_.nodes[best], BoundBy::hysteresis);
-                }
-                continue;
-            }
-            bestRefused = std::max(bestRefused, value);
-            considerExchange(best, waited);
-            ++failed;
         }
         // It falls slowly: a moment without anybody refused says little.
         state_.price = std::max(bestRefused, priceBefore * kPriceSeconds / (kPriceSeconds + in_.dtSeconds));
     }
 
-    // Where others may be given up for it that are worth less by enough.
-    void considerExchange(std::uint32_t taker, float& waited) {
-        const double ratio = givers_.find(tree_, taker, (totalMs_ - middleMs_) / scale_, s_.exchangeFactor);
+    void offerFrom(std::size_t first) {
+        for (std::size_t i = first; i < tree_.nodes.size(); ++i) {
+            if (!tree_.nodes[i].usable || tree_.nodes[i].expanded) continue;
+            state_.heap.push_back(static_cast<std::uint32_t>(i));
+            std::ranges::push_heap(state_.heap, ByValue{tree_});
+        }
+    }
+
+    // It fits.
+    void spendOn(std::uint32_t taker, double priceBefore) {
+        const Refinement& r = tree_.nodes[taker];
+        float& waited = state_.waited[r.node];
+        if (r.isNew) {
+            const std::size_t first = tree_.nodes.size();
+            expand(taker);
+            for (std::size_t c = first; c < tree_.nodes.size(); ++c) tree_.nodes[c].isNew = true;
+            offerFrom(first);
+            return;
+        }
+        const double haste = r.value / std::max(kLeastPrice, s_.exchangeFactor * priceBefore);
+        waited += static_cast<float>(in_.dtSeconds * std::clamp(haste, 1.0, kMostHaste));
+        if (static_cast<double>(waited) >= waitSeconds_ && leftToMake_ > 0) {
+            expand(taker);
+            --leftToMake_;
+        } else {
+            refuse(tree_.nodes[taker], BoundBy::hysteresis);
+        }
+    }
+
+    // It does not, but others may be given up for it that are worth less by enough.
+    void considerExchange(std::uint32_t taker) {
+        const double missingMs = (marks_.totalMs - marks_.middleMs) / marks_.scale;
+        const double ratio = givers_.find(tree_, taker, missingMs, s_.exchangeFactor);
         const bool isWorthIt = ratio > s_.exchangeFactor;
-        waited = isWorthIt ? waited + static_cast<float>(in_.dtSeconds * ratio / s_.exchangeFactor)
-                           : std::max(0.0f, waited - static_cast<float>(in_.dtSeconds));
-        if (!isWorthIt || static_cast<double>(waited) < patience_ * s_.exchangeWait) {
+        const double most = patience_ * s_.exchangeWait;
+        double waited = static_cast<double>(state_.waited[tree_.nodes[taker].node]);
+        waited = isWorthIt ? waited + in_.dtSeconds * ratio / s_.exchangeFactor
+                           : std::max(0.0, std::min(waited, most) - in_.dtSeconds);
+        state_.waited[tree_.nodes[taker].node] = static_cast<float>(waited);
+        if (!isWorthIt || (waited < most && !tree_.nodes[taker].isNew)) {
             refuse(tree_.nodes[taker], isWorthIt ? BoundBy::hysteresis : BoundBy::time);
             return;
         }
@@ -163,21 +175,21 @@ class Trade {
         for (const std::uint32_t giver : givers_.chosen()) refuse(tree_.nodes[giver], BoundBy::time);
     }
 
-    [[nodiscard]] double extraMs(std::uint32_t i) const { return scale_ * tree_.nodes[i].extraMs; }
+    [[nodiscard]] double extraMs(std::uint32_t i) const { return marks_.scale * tree_.nodes[i].extraMs; }
     void set(NodeId n, bool refined) {
         state_.refined[n] = refined ? 1 : 0;
         state_.waited[n] = 0.0f;
     }
     void collapse(std::uint32_t i) {
         tree_.collapse(i);
-        totalMs_ -= extraMs(i);
+        marks_.totalMs -= extraMs(i);
         set(tree_.nodes[i].node, false);
     }
-    // Its children begin coarse in this frame: one level a frame.
+    // Its children begin coarse, and wait for the next frame.
     void expand(std::uint32_t i) {
         const auto first = static_cast<std::uint32_t>(tree_.nodes.size());
         tree_.expand(i, in_, state_, selection_);
-        totalMs_ += extraMs(i);
+        marks_.totalMs += extraMs(i);
         set(tree_.nodes[i].node, true);
         for (std::uint32_t c = first; c < tree_.nodes.size(); ++c) {
             set(tree_.nodes[c].node, false);
@@ -187,8 +199,8 @@ class Trade {
     }
     void refuse(Refinement& r, BoundBy reason) {
         r.boundBy = reason;
-        r.needMs = scale_ * r.extraMs;
-        r.hadMs = middleMs_ - totalMs_;
+        r.needMs = marks_.scale * r.extraMs;
+        r.hadMs = marks_.middleMs - marks_.totalMs;
         if (reason == BoundBy::time) ++selection_.counters.refusedGroups;
     }
 
@@ -197,8 +209,9 @@ class Trade {
     SelectState& state_;
     Selection& selection_;
     RefinementTree& tree_;
-    double totalMs_ = 0.0, middleMs_ = 0.0, scale_ = 1.0, patience_ = 1.0;
-    bool tooMuch_ = false;
+    FrontbenchMarks marks_;
+    double patience_ = 1.0, waitSeconds_ = 0.0;
+    std::int64_t leftToMake_ = 0;
     Givers givers_;
 };
 

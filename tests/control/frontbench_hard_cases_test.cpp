@@ -36,6 +36,56 @@ TEST(FrontbenchHardCase, Nr09AStallSwitchesNothing) {
     }
 }
 
+std::size_t nodesBoundBy(const Selection& selection, BoundBy reason) {
+    return selection.counters.boundBy[static_cast<std::size_t>(reason)];
+}
+
+// Half of the houses stay in view: to them, too, nothing is a switch that anybody sees.
+TEST(FrontbenchHardCase, Nr15TheFrameOfACutIsAsFineAsTimeAllows) {
+    for (const int to : {1, 2, 4}) {
+        ClosedLoop loop = street(0);
+        loop.run(300);
+        loop.walk.view = streetView(to);
+        loop.step();
+        EXPECT_EQ(nodesBoundBy(loop.walk.selection, BoundBy::hysteresis), 0u) << to;
+        EXPECT_GT(loop.walk.selection.estimateMs, 0.8 * loop.settings.control.targetMs) << to;
+        loop.toggles = 0;
+        loop.run(60);
+        EXPECT_LE(loop.toggles, 4u) << to;
+    }
+}
+
+// A turn that a hand makes is no cut, and what stays in the picture waits.
+TEST(FrontbenchHardCase, Nr15ATurnOfTenDegreesIsNoCut) {
+    ClosedLoop loop = street(0);
+    loop.run(300);
+    for (const int degrees : {10, 20}) {
+        ClosedLoop turned = loop;
+        Camera camera = loop.walk.view.camera;
+        camera.orientation = glm::angleAxis(glm::radians(1.0 * degrees), glm::dvec3(0, 1, 0)) * camera.orientation;
+        turned.walk.view = makeView(camera, glm::dvec3(0.0), 160, 90);
+        turned.step();
+        std::size_t seenAnew = 0;
+        for (const Refinement& r : turned.walk.state.tree.nodes) seenAnew += r.isNew ? 1 : 0;
+        EXPECT_EQ(seenAnew == turned.walk.state.tree.nodes.size(), degrees == 20) << degrees;
+    }
+}
+
+// The camera rests, patience is at its most, and only now the data of the whole street come: they have been waited for.
+TEST(FrontbenchHardCase, WhatIsLoadedLateIsDrawnAsItComes) {
+    ClosedLoop loop = street(0);
+    loop.settings.control.targetMs = 60.0;
+    std::fill(loop.walk.loaded.begin() + loop.walk.hierarchy.rootCount, loop.walk.loaded.end(), std::uint8_t{0});
+    loop.run(300);
+    EXPECT_EQ(loop.walk.state.patience, loop.settings.select.restFactor);
+    EXPECT_EQ(loop.toggles, 0u);
+    const std::size_t wishes = nodesBoundBy(loop.walk.selection, BoundBy::load);
+    EXPECT_GE(wishes, 12u);
+    std::ranges::fill(loop.walk.loaded, std::uint8_t{1});
+    loop.step();
+    EXPECT_EQ(loop.toggles, wishes);
+}
+
 // The gate waits for three of five frames, the average for the rest.
 TEST(FrontbenchHardCase, Nr16IsBackAtTheTargetHalfASecondAfterTheDeviceLostTwoFifthsOfItsSpeed) {
     ClosedLoop loop = street(0);
@@ -179,7 +229,7 @@ TEST(Frontbench, SwitchesAsOftenAtAnyFrameRate) {
         return static_cast<double>(loop.toggles);
     };
     const double at30 = togglesOnTheWalk(30.0);
-    EXPECT_GT(at30, 40.0);
+    EXPECT_GT(at30, 25.0);
     for (const double hz : {15.0, 60.0, 120.0}) EXPECT_NEAR(togglesOnTheWalk(hz) / at30, 1.0, 0.6) << hz;
     EXPECT_NEAR(togglesOnTheWalk(120.0) / togglesOnTheWalk(60.0), 1.0, 0.2) << "and does not go on rising";
 }

@@ -10,8 +10,9 @@ using enum BoundBy;
 
 TEST(AgainstTheSlowImplementation, FrontbenchDrawsTheSameFrontAtTheSamePrice) {
     Tally tally;
-    std::uint64_t coarsened = 0, refinements = 0, urgentRefinements = 0, exchanges = 0, exchangesAwaited = 0;
+    std::uint64_t coarsened = 0, refinements = 0, newRefinements = 0, exchanges = 0, exchangesAwaited = 0;
     std::uint64_t exchangesOfSeveral = 0, cameAsRefined = 0, patientFrames = 0;
+    std::uint64_t cutNodes = 0, newExchanges = 0, arrivals = 0;
     for (std::uint64_t seed = 8001; seed < 8001 + 4 * kWorlds; ++seed) {
         SlowFrontbench slow;
         compareWorld(
@@ -26,7 +27,10 @@ TEST(AgainstTheSlowImplementation, FrontbenchDrawsTheSameFrontAtTheSamePrice) {
         if (HasFatalFailure()) return;
         coarsened += slow.coarsened;
         refinements += slow.refinements;
-        urgentRefinements += slow.urgentRefinements;
+        newRefinements += slow.newRefinements;
+        cutNodes += slow.cutNodes;
+        newExchanges += slow.newExchanges;
+        arrivals += slow.arrivals;
         exchanges += slow.exchanges;
         exchangesOfSeveral += slow.exchangesOfSeveral;
         exchangesAwaited += slow.exchangesAwaited;
@@ -37,10 +41,13 @@ TEST(AgainstTheSlowImplementation, FrontbenchDrawsTheSameFrontAtTheSamePrice) {
     expectManySwitches(tally);
     EXPECT_GT(coarsened, 1000u);
     EXPECT_GT(refinements, 1000u);
-    EXPECT_GT(urgentRefinements, 1000u);
+    EXPECT_GT(newRefinements, 1000u);
+    EXPECT_GT(cutNodes, 1000u);
+    EXPECT_GT(newExchanges, 20u);
+    EXPECT_GT(arrivals, 100u);
     EXPECT_GT(exchanges, 200u);
     EXPECT_GT(exchangesOfSeveral, 50u);
-    EXPECT_GT(exchangesAwaited, exchanges + 100);
+    EXPECT_GT(exchangesAwaited, exchanges + 50);
     EXPECT_GT(cameAsRefined, 200u);
     EXPECT_GT(patientFrames, 1000u);
 }

@@ -1,6 +1,7 @@
 #include "select/slow_frontbench.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fb {
 
@@ -9,6 +10,13 @@ SlowFrame SlowFrontbench::step(const SelectInput& in) {
     const Camera& camera = in.view.camera;
     if (camera.eye != cameraBefore_.eye || camera.orientation != cameraBefore_.orientation) restSeconds_ = 0.0;
     else restSeconds_ += in.dtSeconds;
+    movedMetres_ = glm::distance(camera.eye, cameraBefore_.eye);
+    // Of unit quaternions, of which q and -q are the same turn.
+    const auto chord = [&](double sign) {
+        const glm::dquat d = camera.orientation - sign * cameraBefore_.orientation;
+        return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z + d.w * d.w);
+    };
+    turnedRadians_ = 4.0 * std::asin(std::min(chord(1.0), chord(-1.0)) / 2.0);
     cameraBefore_ = camera;
     patience_ = 1.0;
     if (restSeconds_ >= 4.0) patience_ = in.settings.restFactor;
@@ -51,11 +59,18 @@ double SlowFrontbench::totalMs(const SlowScene& scene, const Limits& limits) con
 // Item 2.
 void SlowFrontbench::goOn(SlowScene& scene) {
     std::vector<NodeId> open = scene.roots;
+    new_.clear();
     for (std::size_t i = 0; i < open.size(); ++i) {
         const NodeId n = open[i];
+        const Box3f& box = scene.in.hierarchy.bounds[n];
+        const double away = glm::distance((glm::dvec3(box.min) + glm::dvec3(box.max)) / 2.0, scene.in.view.camera.eye);
+        const bool isCut = scene.below(away * (0.3 - turnedRadians_), movedMetres_);
+        if (isCut || !reachedBefore_.contains(n)) new_.insert(n);
+        if (isCut && reachedBefore_.contains(n)) ++cutNodes;
         if (!scene[n].usable) {
             wanted_.erase(n);
             waited.erase(n);
+            if (!scene[n].children.empty()) waited[n] = 1e6f;
         } else if (!reachedBefore_.contains(n)) {
             waited.erase(n);
             if (price > 0.0) {
@@ -121,33 +136,48 @@ void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
         const bool free = scene[n].extraMs <= 0.0;
         if (tooLarge >= s.refineRate && !free) continue;
         if (free || !scene.below(l.mid, totalMs(scene, l) + scene[n].extraMs * l.perEstimate)) {
-            waited[n] += static_cast<float>(dt);
-            const bool urgent = patience_ == 1.0 && scene.below(4.0 * s.exchangeFactor * price, scene[n].value);
-            if (!urgent && (scene.below(double{waited[n]}, waitSeconds) || made >= most)) {
+            if (new_.contains(n)) {  // all that comes with it is new, and looked at in this frame
+                refine(scene, n);
+                ++newRefinements;
+                for (NodeId child : scene[n].children) {
+                    new_.insert(child);
+                    if (!scene[child].usable) continue;
+                    waits_.erase(child);
+                    notSeen.insert(child);
+                }
+                continue;
+            }
+            const double times = price > 0.0 ? scene[n].value / s.exchangeFactor / price
+                                 : scene[n].value > 0.0 ? 1e6 : 1.0;
+            if (waited[n] >= 1e6f) ++arrivals;
+            waited[n] += static_cast<float>(dt * std::min(1e6, std::max(1.0, times)));
+            if (scene.below(double{waited[n]}, waitSeconds) || made >= most) {
                 waits_.insert(n);
                 continue;
             }
             refine(scene, n);
             ++made;
-            ++(urgent ? urgentRefinements : refinements);
+            ++refinements;
             continue;
         }
         ++tooLarge;
         largestRefused = std::max(largestRefused, scene[n].value);
         const Exchange exchange = exchangeFor(scene, l, n);
         if (exchange.givenUp.empty() || !scene.below(s.exchangeFactor, exchange.ratio)) {
-            waited[n] = std::max(0.0f, waited[n] - static_cast<float>(dt));
+            const double longest = patience_ * s.exchangeWait;
+            waited[n] = static_cast<float>(std::max(0.0, std::min(double{waited[n]}, longest) - dt));
             continue;
         }
-        waited[n] += static_cast<float>(dt * exchange.ratio / s.exchangeFactor);
+        waited[n] = static_cast<float>(double{waited[n]} + dt * exchange.ratio / s.exchangeFactor);
         ++exchangesAwaited;
-        if (scene.below(double{waited[n]}, patience_ * s.exchangeWait)) {
+        if (!new_.contains(n) && scene.below(double{waited[n]}, patience_ * s.exchangeWait)) {
             waits_.insert(n);
             continue;
         }
         for (NodeId other : exchange.givenUp) wanted_.erase(other);
         refine(scene, n);
         ++exchanges;
+        if (new_.contains(n)) ++newExchanges;
         if (exchange.givenUp.size() > 1) ++exchangesOfSeveral;
     }
     price = std::max(largestRefused, price / (1.0 + dt));

@@ -13,8 +13,9 @@ class SlowFrontbench {
     double price = 0.0;
     std::map<NodeId, float> waited;  // seconds; a node that is not in it has not waited
     // How often each thing happened.
-    std::uint64_t coarsened = 0, refinements = 0, urgentRefinements = 0, exchanges = 0, exchangesAwaited = 0;
+    std::uint64_t coarsened = 0, refinements = 0, newRefinements = 0, exchanges = 0, exchangesAwaited = 0;
     std::uint64_t exchangesOfSeveral = 0, cameAsRefined = 0, patientFrames = 0;
+    std::uint64_t cutNodes = 0, newExchanges = 0, arrivals = 0;
 
   private:
     struct Limits {
@@ -38,9 +39,11 @@ class SlowFrontbench {
 
     SlowSet wanted_;         // refined; also of nodes that are not reached now
     SlowSet reachedBefore_;  // in the frame before
+    SlowSet new_;            // not in the picture before, or elsewhere in it
     SlowSet waits_;          // would be refined, but not in this frame
     SlowSwitches switches_;
     double restSeconds_ = 0.0, patience_ = 1.0;
+    double movedMetres_ = 0.0, turnedRadians_ = 0.0;
     Camera cameraBefore_;
 };
 

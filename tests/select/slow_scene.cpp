@@ -16,22 +16,27 @@ double slowTimeMs(const SelectInput& in, NodeId n) {
     return std::max(1e-12, std::max(t.leastMs, ms));
 }
 
-// Geometric error and half the edge of a texel, in metres (algorithms 3, "Gain").
-double errorMetres(const Hierarchy& h, NodeId n) {
+// Half the edge of a texel, in metres (algorithms 3, "Gain").
+double halfTexel(const Hierarchy& h, NodeId n) {
     const double texels = 1.0 * h.textureWidth[n] * h.textureHeight[n];
-    const double edge = texels > 0.0 ? std::sqrt(h.areaSquareMetres[n] / texels) : 0.0;
-    return h.geometricErrorMetres[n] + 0.5 * edge;
+    return texels > 0.0 ? 0.5 * std::sqrt(h.areaSquareMetres[n] / texels) : 0.0;
 }
 
 // By how much less how many pixels are wrong when this child is drawn.
 double pixelGain(const SelectInput& in, NodeId parent, NodeId child) {
     const Hierarchy& h = in.hierarchy;
-    const double distance =
-        std::max(in.settings.minDistance, slowDistance(in.view.camera.eye, h.bounds[child]));
-    const double pixelsPerMetre = in.view.pixelsPerUnit / distance;
-    const double pixels = std::min(double(in.view.width) * in.view.height,
-                                   h.areaSquareMetres[child] * pixelsPerMetre * pixelsPerMetre);
-    return pixels * pixelsPerMetre * std::max(0.0, errorMetres(h, parent) - errorMetres(h, child));
+    const double shapeBefore = h.geometricErrorMetres[parent], textureBefore = halfTexel(h, parent);
+    if (shapeBefore + textureBefore <= 0.0) return 0.0;
+    double finer = 0.0;
+    if (h.geometricErrorMetres[child] < shapeBefore) finer += shapeBefore - h.geometricErrorMetres[child];
+    if (halfTexel(h, child) < textureBefore) finer += textureBefore - halfTexel(h, child);
+    const double away = slowDistance(in.view.camera.eye, h.bounds[child]);
+    const double perMetre = in.view.pixelsPerUnit / std::max(0.001, away);
+    const double pixels = std::min(double(in.view.width) * in.view.height, h.areaSquareMetres[child] * perMetre * perMetre);
+    const double nearest = std::max(0.001, away - shapeBefore - textureBefore);
+    const double wrong = std::min(std::hypot(in.view.width, in.view.height),
+                                  (shapeBefore + textureBefore) * in.view.pixelsPerUnit / nearest);
+    return pixels * wrong * finer / (shapeBefore + textureBefore);
 }
 
 }  // namespace
