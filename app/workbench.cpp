@@ -119,7 +119,10 @@ void settle(Workbench& w, const FrameInput& input, double limitSeconds) {
         if (w.clock == ClockKind::real) sleepUntil(start, waited + input.dtSeconds);
         quiet = w.residency.inFlight.empty() ? quiet + 1 : 0;
     }
+    if (w.renderer) waitForTimes(w);
+    const ControlState learnt = w.control;  // a walk that begins settled begins with what the device has shown
     restartWalk(w);
+    w.control = learnt;
     w.onRecord = heard;
 }
 

@@ -4,6 +4,11 @@
 #include "measure/report.h"
 
 namespace fb {
+namespace {
+
+constexpr double kDeviationOfMedian = 1.4826;  // sd of normal values over their median distance from the median
+
+}  // namespace
 
 Distribution describe(std::vector<double> values) {
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
@@ -27,6 +32,9 @@ Distribution describe(std::vector<double> values) {
     result.p95 = percentile(95);
     result.p99 = percentile(99);
     result.max = values.back();
+    for (double& v : values) v = std::abs(v - result.p50);
+    std::ranges::sort(values);
+    result.robustSd = kDeviationOfMedian * percentile(50);
     return result;
 }
 

@@ -39,7 +39,8 @@ struct ReplayReport {
 // - utilisation: mean of actual/target over frames with moreDetailAvailable; null where there are none
 // - over_target_pct: 100 * frames with actual > 1.1 * target / frames
 // - estimate_error_pct: of 100 * (actual - estimate) / actual over frames with actual > 0, so negative is
-//   conservative (thesis 6.3); null where there are none
+//   conservative (thesis 6.3); null where there are none. robust_sd: 1.4826 times the median distance from the median, which a
+//   few stalls of the machine do not move
 // - toggles.frames_per_toggle: frames / (up + down); null without toggles
 // - levels_share: mean over the frames with a front of the share of its nodes on each level
 // - memory.over_budget_frames: frames with resident + reserved > budget
@@ -54,7 +55,7 @@ struct ReplayReport {
 [[nodiscard]] Result<void> writeReport(const ReplayReport& report, const std::filesystem::path& folder);
 
 struct Distribution {
-    double mean = 0, sd = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+    double mean = 0, sd = 0, robustSd = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
 };
 // Percentiles by nearest rank: the smallest value that at least p % of the values do not exceed. sd of all
 // values. All 0 for no values; values that are not finite are left out.

@@ -29,8 +29,8 @@ Json utilisationOf(const std::vector<FrameRecord>& frames) {
 
 Json estimateErrorOf(const std::vector<FrameRecord>& frames) {
     const std::optional<Distribution> d = estimateErrorPercent(frames);
-    if (!d) return {{"mean", nullptr}, {"sd", nullptr}};
-    return {{"mean", d->mean}, {"sd", d->sd}};
+    if (!d) return {{"mean", nullptr}, {"sd", nullptr}, {"robust_sd", nullptr}};
+    return {{"mean", d->mean}, {"sd", d->sd}, {"robust_sd", d->robustSd}};
 }
 
 Json togglesOf(const std::vector<FrameRecord>& frames) {

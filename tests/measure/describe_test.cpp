@@ -17,6 +17,13 @@ TEST(Describe, GivesMeanAndDeviationOfAllValues) {
     EXPECT_EQ(d.max, 9.0);
 }
 
+// Distances from 4: 2 0 0 0 1 1 3 5.
+TEST(Describe, GivesADeviationThatFewFarValuesDoNotMove) {
+    EXPECT_DOUBLE_EQ(describe({2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0}).robustSd, 1.4826);
+    EXPECT_DOUBLE_EQ(describe({2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 1e6}).robustSd, 1.4826);
+    EXPECT_EQ(describe({}).robustSd, 0.0);
+}
+
 TEST(Describe, TakesPercentilesByNearestRank) {
     std::vector<double> values;
     for (int i = 20; i >= 1; --i) values.push_back(i);  // 20 % steps of 5: rank 10, 19, 20

@@ -34,7 +34,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
     EXPECT_EQ(keysOf(json), names);
     EXPECT_EQ(keysOf(json["actual_ms"]),
               (std::vector<std::string>{"mean", "sd", "p50", "p95", "p99", "max"}));
-    EXPECT_EQ(keysOf(json["estimate_error_pct"]), (std::vector<std::string>{"mean", "sd"}));
+    EXPECT_EQ(keysOf(json["estimate_error_pct"]), (std::vector<std::string>{"mean", "sd", "robust_sd"}));
     EXPECT_EQ(keysOf(json["toggles"]),
               (std::vector<std::string>{"up", "down", "per_frame", "frames_per_toggle", "pingpong"}));
     EXPECT_EQ(keysOf(json["front_nodes"]), (std::vector<std::string>{"mean", "max"}));
@@ -86,6 +86,7 @@ TEST(SummaryJson, WorksOutTimes) {
     EXPECT_DOUBLE_EQ(json["over_target_pct"], 100.0 / 3.0);
     EXPECT_DOUBLE_EQ(json["estimate_error_pct"]["mean"], -10.0 / 3.0);
     EXPECT_NEAR(json["estimate_error_pct"]["sd"], std::sqrt(438.0 + 8.0 / 9.0), 1e-12);
+    EXPECT_NEAR(json["estimate_error_pct"]["robust_sd"], 1.4826 * 15.0, 1e-12);  // -25, -10, 25
     EXPECT_DOUBLE_EQ(json["select_us"]["mean"], 300.0);
     EXPECT_EQ(json["select_us"]["p99"], 600.0);
 }
@@ -128,6 +129,7 @@ TEST(SummaryJson, SaysNullWhereThereIsNothingToDivideBy) {
     EXPECT_TRUE(json["toggles"]["frames_per_toggle"].is_null());
     EXPECT_TRUE(json["estimate_error_pct"]["mean"].is_null());
     EXPECT_TRUE(json["estimate_error_pct"]["sd"].is_null());
+    EXPECT_TRUE(json["estimate_error_pct"]["robust_sd"].is_null());
     EXPECT_EQ(json["toggles"]["per_frame"], 0.0);
 }
 
