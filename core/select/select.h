@@ -74,6 +74,11 @@ struct SelectState {
     // Another policy begins with what is drawn.
     void takeOver(PolicyId next, std::uint64_t frame);
     [[nodiscard]] bool wasSeen(NodeId node, std::uint64_t frame) const { return seenFrame[node] + 1 == frame; }
+    // A new state has not waited for the next.
+    void setRefined(NodeId node, bool isRefined) {
+        refined[node] = isRefined ? 1 : 0;
+        waited[node] = 0.0f;
+    }
 };
 
 struct Reached {

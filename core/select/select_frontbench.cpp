@@ -3,8 +3,8 @@
 // taken from where it brings least; and time changes hands only where it brings several times as much there. What was not
 // in the picture before does not wait: nobody sees it switch.
 #include <algorithm>
-#include <cmath>
 
+#include "select/continue_front.h"
 #include "select/frontbench_marks.h"
 #include "select/givers.h"
 #include "select/select_policies.h"
@@ -12,14 +12,11 @@
 namespace fb {
 namespace {
 
-constexpr double kEnterLess = 0.77, kEnterMore = 1.3;  // of the price: what comes into view, refined before or not
-constexpr double kLeastWait = 0.03;                    // of refine_wait
+constexpr double kLeastWait = 0.03;  // of refine_wait
 constexpr int kFasterWithRoom = 4;
 constexpr double kRestFrom = 2.0, kRestFor = 2.0;  // seconds
-constexpr double kPriceSeconds = 1.0;              // in which the price falls to a half while nobody is refused
+constexpr double kPriceSeconds = 1.0;  // in which the price falls to a half while nobody is refused
 constexpr double kLeastPrice = 1e-300, kMostHaste = 1e6;
-constexpr double kCutRadians = 0.3;  // by which what is seen moves in the picture in one frame
-constexpr float kWaitedForData = 1e6f;
 
 class Trade {
   public:
@@ -31,7 +28,7 @@ class Trade {
         if (tree_.nodes.empty()) return;
         const double rest = std::clamp((state_.restSeconds - kRestFrom) / kRestFor, 0.0, 1.0);
         patience_ = state_.patience = 1.0 + (s_.restFactor - 1.0) * rest;
-        continueFromBefore();
+        continueFront(in_, state_, selection_);
         marks_ = frontbenchMarks(in_, in_.time.fixedMs + tree_.drawnMs(), patience_);
         if (marks_.tooMuch) {
             giveBack();
@@ -42,35 +39,6 @@ class Trade {
     }
 
   private:
-    // Step 2.
-    void continueFromBefore() {
-        for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
-            Refinement& r = tree_.nodes[i];
-            const bool wasSeen = state_.wasSeen(r.node, in_.frame);
-            state_.seenFrame[r.node] = in_.frame;
-            r.isNew = !wasSeen || isElsewhere(r.node);
-            if (!r.usable) {
-                set(r.node, false);
-                if (r.childCount > 0) state_.waited[r.node] = kWaitedForData;
-                continue;
-            }
-            if (!wasSeen) {
-                const bool before = state_.refined[r.node] != 0;
-                const double bar = state_.price * (before ? kEnterLess : kEnterMore);
-                set(r.node, state_.price > 0.0 ? r.value > bar : before);
-            }
-            if (state_.refined[r.node] != 0) tree_.expand(i, in_, state_, selection_);
-        }
-    }
-
-    // Whether the camera has moved or turned so much in one frame that the node's picture is another: a cut.
-    [[nodiscard]] bool isElsewhere(NodeId n) const {
-        const Box3f& bounds = in_.hierarchy.bounds[n];
-        const Box3d box{glm::dvec3(bounds.min), glm::dvec3(bounds.max)};
-        const double distance = glm::length(box.centre() - in_.view.camera.eye);
-        return state_.movedMetres > (kCutRadians - state_.turnedRadians) * distance;
-    }
-
     // Step 4.
     void giveBack() {
         const ByValue order{tree_, true};
@@ -176,23 +144,19 @@ class Trade {
     }
 
     [[nodiscard]] double extraMs(std::uint32_t i) const { return marks_.scale * tree_.nodes[i].extraMs; }
-    void set(NodeId n, bool refined) {
-        state_.refined[n] = refined ? 1 : 0;
-        state_.waited[n] = 0.0f;
-    }
     void collapse(std::uint32_t i) {
         tree_.collapse(i);
         marks_.totalMs -= extraMs(i);
-        set(tree_.nodes[i].node, false);
+        state_.setRefined(tree_.nodes[i].node, false);
     }
     // Its children begin coarse, and wait for the next frame.
     void expand(std::uint32_t i) {
         const auto first = static_cast<std::uint32_t>(tree_.nodes.size());
         tree_.expand(i, in_, state_, selection_);
         marks_.totalMs += extraMs(i);
-        set(tree_.nodes[i].node, true);
+        state_.setRefined(tree_.nodes[i].node, true);
         for (std::uint32_t c = first; c < tree_.nodes.size(); ++c) {
-            set(tree_.nodes[c].node, false);
+            state_.setRefined(tree_.nodes[c].node, false);
             state_.seenFrame[tree_.nodes[c].node] = in_.frame;
             if (tree_.nodes[c].usable) refuse(tree_.nodes[c], BoundBy::hysteresis);
         }
