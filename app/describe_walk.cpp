@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "measure/loads_csv.h"
 #include "settings/knob_table.h"
 
 namespace fb {
@@ -32,6 +33,10 @@ ReplayReport describeWalk(const Workbench& w, const WalkNames& names, std::vecto
     const LoaderCounters loader = w.loader->counters();
     report.loads.suspended = loader.suspended - w.loaderBefore.suspended;
     report.loads.bytes = loader.bytesRead - w.loaderBefore.bytesRead;
+    report.prefetch = w.timeline.score();
+    report.loadsCsv = loadsCsv(w.scene->hierarchy, w.timeline.records(), w.walkBeganSeconds);
+    for (NodeId root = 0; root < w.scene->hierarchy.rootCount; ++root)
+        report.pinnedBytes += w.scene->hierarchy.residentBytes[root];
     report.budgetBytes = budgetBytes(w.settings.load);
     report.peakBytes = w.residency.peakBytes;
     for (const EffectRow& row : effectTable()) {

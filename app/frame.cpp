@@ -29,7 +29,7 @@ void decideFrameEffects(Workbench& w, const FrameInput& input, FrameRecord& reco
 void takeLoads(Workbench& w, FrameRecord& record) {
     const ScopedMilliseconds timer(record.uploadMs);
     w.loader->advance(record.dtMs / 1000.0);
-    const UploadInput upload{w.scene->hierarchy, w.settings.load, w.nowSeconds, w.onFault};
+    const UploadInput upload{w.scene->hierarchy, w.settings.load, w.nowSeconds, w.onFault, &w.timeline};
     record.uploadBytes = takeFinishedLoads(upload, *w.loader, w.device(), w.residency);
 }
 
@@ -40,11 +40,16 @@ void planFrameLoads(Workbench& w, const View& view, FrameRecord& record) {
                           w.effects,          w.inFront, w.nowSeconds};
     planLoads(input, w.residency, w.plan);
     for (NodeId node : w.plan.evicted) w.device().release(node);
+    w.timeline.notePlan(w.plan, w.loader->nowSeconds());
     w.loader->publish(w.plan.wishes, w.settings.load);
     record.evictions = static_cast<std::uint32_t>(w.plan.evicted.size());
     record.pendingLoads = static_cast<std::uint32_t>(w.residency.inFlight.size());
     record.residentBytes = w.residency.residentBytes;
     record.reservedBytes = w.residency.reservedBytes;
+    record.textureBytes = w.residency.residentTextureBytes;
+    const double cTextured = w.settings.select.cTextured;
+    record.estimateBytes = w.settings.load.cMemory * (cTextured * static_cast<double>(w.residency.texturedTriangles) +
+                                                      (1.0 - cTextured) * static_cast<double>(w.residency.untexturedTriangles));
     record.budgetBytes = budgetBytes(w.settings.load);
 }
 
@@ -105,6 +110,7 @@ void runFrame(Workbench& w, const FrameInput& input) {
     takeLoads(w, record);
     planFrameLoads(w, view, record);
     chooseFront(w, view, record);
+    w.timeline.noteSelection(w.selection, w.residency, w.loader->nowSeconds());
     recordSelection(w, view, record);
     recordEffectWork(w, drawFront(w, view, record), record);
     measureFrame(w);

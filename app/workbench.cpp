@@ -77,6 +77,8 @@ void restartWalk(Workbench& w) {
     w.residency.counters = {};
     w.residency.peakBytes = w.residency.residentBytes;
     w.loaderBefore = w.loader->counters();
+    w.timeline.start(w.scene->hierarchy);
+    w.walkBeganSeconds = w.loader->nowSeconds();
     for (FrameRecord& record : w.pending) record.frame = 0;
 }
 

@@ -14,6 +14,7 @@
 #include "control/control.h"
 #include "control/model_device.h"
 #include "draw/renderer.h"
+#include "load/load_timeline.h"
 #include "load/loader.h"
 #include "measure/history.h"
 #include "select/select.h"
@@ -42,6 +43,8 @@ struct Workbench {
     LoadPlan plan;
     std::vector<std::uint8_t> inFront;  // one a node: in the front drawn last
     std::unique_ptr<Loader> loader;
+    LoadTimeline timeline;
+    double walkBeganSeconds = 0.0;      // on the loader's clock
 
     SelectState selectState;
     Selection selection;

@@ -34,12 +34,15 @@ bool ChunkOrder::hasWork() {
 StartedLoad& ChunkOrder::choose() {
     FB_CHECK(hasWork());
     if (current_ == kNone || wishes_[current_].priority < wishes_[first_].priority) {
-        if (current_ != kNone) ++counters_.suspended;
+        if (current_ != kNone) {
+            ++counters_.suspended;
+            if (StartedLoad* load = findStarted(wishes_[current_].node)) ++load->stamps.suspensions;
+        }
         current_ = first_;
     }
     const NodeId node = wishes_[current_].node;
     if (StartedLoad* load = findStarted(node)) return *load;
-    started_.push_back({node, 0, {}});
+    started_.push_back({node, 0, {}, {}});
     return started_.back();
 }
 

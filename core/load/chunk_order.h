@@ -17,6 +17,7 @@ struct StartedLoad {
     NodeId node = kNoNode;
     std::uint64_t filledBytes = 0;
     std::vector<std::uint8_t> bytes;  // stays empty on the simulated disk
+    LoadStamps stamps;
 };
 
 class ChunkOrder {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -19,9 +20,18 @@
 
 namespace fb {
 
+// Of one load, in seconds of Loader::nowSeconds(); not a number: it did not come so far.
+struct LoadStamps {
+    double firstRead = std::numeric_limits<double>::quiet_NaN(), read = firstRead, decoded = firstRead;
+    std::uint32_t suspensions = 0;  // how often it stepped back for a more urgent one
+};
+
+class LoadTimeline;
+
 struct FinishedLoad {
     NodeId node = kNoNode;
     Result<std::unique_ptr<DecodedNode>> content;  // null content: the null device needs none
+    LoadStamps stamps{};
 };
 
 struct LoaderCounters {
@@ -44,6 +54,8 @@ class Loader {
     // Model time goes on; nothing for the thread.
     virtual void advance(double seconds) = 0;
     [[nodiscard]] virtual LoaderCounters counters() const = 0;
+    // The clock of the stamps: since the loader began, as it is where loads are made.
+    [[nodiscard]] virtual double nowSeconds() const = 0;
 };
 
 // Starts the thread; the destructor stops and joins it, within one chunk or one node's decoding. `scene` must
@@ -65,6 +77,7 @@ struct UploadInput {
     const LoadSettings& settings;
     double nowSeconds;
     std::function<void(const Error&)> onFault;
+    LoadTimeline* timeline = nullptr;  // hears of uploads and failures, where there is one
 };
 std::uint64_t takeFinishedLoads(const UploadInput& input, Loader& loader, NodeDevice& device,
                                 Residency& residency);

@@ -19,6 +19,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/clock.h"
 #include "load/chunk_order.h"
 #include "load/decode_payload.h"
 #include "load/finished_queue.h"
@@ -79,6 +80,8 @@ class ThreadLoader final : public Loader {
     }
 
     void advance(double) override {}
+
+    double nowSeconds() const override { return millisecondsSince(begun_) / 1000.0; }
 
     LoaderCounters counters() const override {
         return {suspended_.load(std::memory_order_relaxed),
@@ -144,13 +147,12 @@ class ThreadLoader final : public Loader {
 
     void readOneChunk() {
         StartedLoad& load = order_.choose();
+        if (load.filledBytes == 0) load.stamps.firstRead = nowSeconds();
         const PayloadRef& payload = scene_.hierarchy.payload[load.node];
         try {
             load.bytes.resize(payload.sizeBytes);
         } catch (const std::exception& problem) {
-            handOver(load.node,
-                     failure({}, nodePlace(load.node), std::string("cannot be read: ") + problem.what()),
-                     load.filledBytes);
+            handOver(load, failure({}, nodePlace(load.node), std::string("cannot be read: ") + problem.what()));
             return;
         }
         const std::uint64_t bytes = std::min(chunkBytes_, payload.sizeBytes - load.filledBytes);
@@ -158,13 +160,16 @@ class ThreadLoader final : public Loader {
         if (Result<void> read = source_->readAt(payload.pack, payload.offset + load.filledBytes, into);
             !read) {
             if (read.error().place.empty()) read.error().place = nodePlace(load.node);
-            handOver(load.node, passOn(read), load.filledBytes);
+            handOver(load, passOn(read));
             return;
         }
         load.filledBytes += bytes;
         order_.countRead(bytes);
         if (load.filledBytes < payload.sizeBytes || isStopping()) return;
-        handOver(load.node, decodePayload(scene_, load.node, load.bytes), load.filledBytes);
+        load.stamps.read = nowSeconds();
+        Result<std::unique_ptr<DecodedNode>> content = decodePayload(scene_, load.node, load.bytes);
+        load.stamps.decoded = nowSeconds();
+        handOver(load, std::move(content));
     }
 
     bool isStopping() {
@@ -172,9 +177,10 @@ class ThreadLoader final : public Loader {
         return stopping_;
     }
 
-    void handOver(NodeId node, Result<std::unique_ptr<DecodedNode>> content, std::uint64_t payloadBytes) {
+    void handOver(const StartedLoad& load, Result<std::unique_ptr<DecodedNode>> content) {
+        const NodeId node = load.node;  // the load itself may go with fresh wishes
         const std::uint64_t residentBytes = content ? scene_.hierarchy.residentBytes[node] : 0;
-        FinishedQueue::Entry entry{{node, std::move(content)}, residentBytes, payloadBytes};
+        FinishedQueue::Entry entry{{node, std::move(content), load.stamps}, residentBytes, load.filledBytes};
         publishCounters();  // before the main thread can see the load
         std::unique_lock lock(mutex_);
         adoptFresh(lock);
@@ -193,6 +199,7 @@ class ThreadLoader final : public Loader {
 
     const Scene& scene_;
     const std::unique_ptr<PayloadSource> source_;
+    const SteadyClock::time_point begun_ = SteadyClock::now();
 
     // Main thread.
     std::vector<Wish> undelivered_;

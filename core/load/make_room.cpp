@@ -74,7 +74,10 @@ void listUnderWay(RoomMaker& room) {
     room.steppedBack = 0;
 }
 
-void evictGroup(RoomMaker& room, SiblingGroup& group) {
+// `forPriority`: of what needs the room; 0 where the budget was cut.
+void evictGroup(RoomMaker& room, SiblingGroup& group, double forPriority) {
+    room.residency.evictedAtSeconds[group.parent] = room.input.nowSeconds;
+    room.residency.evictedFor[group.parent] = forPriority;
     forEachMember(room, group, [&](NodeId node) {
         if (room.residency.state[node] == NodeState::resident) {
             if (!room.input.inFront.empty() && room.input.inFront[node] != 0) room.plan.frontEvicted = true;
@@ -115,7 +118,7 @@ void shrinkToBudget(RoomMaker& room) {
               [&room](std::uint32_t a, std::uint32_t b) { return goesFirst(room, a, b); });
     for (const std::uint32_t i : plan.victims) {
         if (room.residency.totalBytes() <= room.budgetBytes) break;
-        evictGroup(room, plan.groups.groups[i]);
+        evictGroup(room, plan.groups.groups[i], 0.0);
     }
 }
 
@@ -139,7 +142,7 @@ void evictFor(RoomMaker& room, const SiblingGroup& group) {
         FB_CHECK(room.victimsTaken < room.plan.victims.size());
         SiblingGroup& victim = room.plan.groups.groups[room.plan.victims[room.victimsTaken]];
         FB_CHECK(victim.priority < limitFor(room, group));
-        if (victim.held.members > 0) evictGroup(room, victim);  // 0: it stepped back in this frame
+        if (victim.held.members > 0) evictGroup(room, victim, group.priority);  // 0: it stepped back in this frame
         ++room.victimsTaken;
     }
 }
@@ -173,6 +176,7 @@ void withdrawLoads(RoomMaker& room, SiblingGroup& group) {
         if (!room.residency.isInFlight(node)) return;
         room.residency.setUnloaded(room.hierarchy, node);
         ++room.residency.counters.cancelled;
+        room.plan.withdrawn.push_back(node);
     });
     group.missing.add(group.inFlight);
     group.held.remove(group.inFlight);

@@ -61,6 +61,8 @@ class ModelLoader final : public Loader {
         nowNs_ = end;
     }
 
+    double nowSeconds() const override { return static_cast<double>(nowNs_) / kNanosecondsPerSecond; }
+
     LoaderCounters counters() const override {
         LoaderCounters counters = order_.counters();
         counters.cancelled += droppedLoads_;
@@ -79,7 +81,8 @@ class ModelLoader final : public Loader {
     bool begin() {
         adoptFresh();
         if (!queue_.hasRoom() || !order_.hasWork()) return false;
-        const StartedLoad& load = order_.choose();
+        StartedLoad& load = order_.choose();
+        if (load.filledBytes == 0) load.stamps.firstRead = nowSeconds();
         const PayloadRef& payload = scene_.hierarchy.payload[load.node];
         const std::uint64_t offset = payload.offset + load.filledBytes;
         readingBytes_ = std::min<std::uint64_t>(chunkBytes_, payload.sizeBytes - load.filledBytes);
@@ -101,9 +104,11 @@ class ModelLoader final : public Loader {
         order_.countRead(readingBytes_);
         const std::uint64_t payloadBytes = scene_.hierarchy.payload[node].sizeBytes;
         if (load.filledBytes < payloadBytes) return;
+        load.stamps.read = load.stamps.decoded = nowSeconds();
+        const LoadStamps stamps = load.stamps;
         adoptFresh();
         if (!order_.isWished(node)) return;
-        queue_.push({{node, nullptr}, scene_.hierarchy.residentBytes[node], payloadBytes});
+        queue_.push({{node, nullptr, stamps}, scene_.hierarchy.residentBytes[node], payloadBytes});
         order_.finish(node);
     }
 

@@ -31,6 +31,7 @@ void reserveMissing(RoomMaker& room, const SiblingGroup& group) {
         if (state != NodeState::unloaded && state != NodeState::failedTemporarily) continue;
         room.residency.reserve(room.hierarchy, node);
         ++room.residency.counters.requested;
+        room.plan.requested.push_back(node);
     }
 }
 
@@ -39,7 +40,12 @@ void listCandidates(RoomMaker& room) {
     for (std::uint32_t i = 0; i < plan.groups.groups.size(); ++i) {
         const SiblingGroup& group = plan.groups.groups[i];
         const bool blocked = group.hopeless || group.broken || group.waiting || group.evicted;
-        if (group.missing.members > 0 && !blocked) plan.candidates.push_back(i);
+        if (group.missing.members == 0 || blocked) continue;
+        if (group.barred) {
+            refuseMemory(room, group);
+        } else {
+            plan.candidates.push_back(i);
+        }
     }
 }
 
@@ -96,6 +102,8 @@ void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan) {
     FB_CHECK((input.inFront.empty() || input.inFront.size() == input.hierarchy.size()));
     plan.wishes.clear();
     plan.evicted.clear();
+    plan.requested.clear();
+    plan.withdrawn.clear();
     plan.candidates.clear();
     plan.frontEvicted = false;
     gatherSiblingGroups(input, residency, plan.groups);

@@ -24,6 +24,8 @@ struct Wish {
 struct LoadPlan {
     std::vector<Wish> wishes;       // all in flight, falling priority, siblings side by side: for the loader
     std::vector<NodeId> evicted;    // given up this frame; the caller releases them on the device
+    std::vector<NodeId> requested;  // in flight from this frame on
+    std::vector<NodeId> withdrawn;  // no longer
     bool everythingLoaded = false;  // no candidate is left and nothing is in flight
     bool frontEvicted =
         false;  // a node of inFront had to go (budget cut): that front must not be drawn again

@@ -24,7 +24,7 @@ void removeFrom(std::vector<NodeId>& list, std::vector<std::uint32_t>& position,
 
 void leaveFlight(Residency& residency, const Hierarchy& hierarchy, NodeId node) {
     removeFrom(residency.inFlight, residency.position, node);
-    residency.reservedBytes -= hierarchy.residentBytes[node];
+    residency.reservedBytes -= flightBytes(hierarchy, node);
 }
 
 }  // namespace
@@ -40,7 +40,10 @@ void Residency::reset(const Hierarchy& hierarchy) {
     position.assign(nodes, 0);
     retryAtSeconds.assign(nodes, 0.0);
     failures.assign(nodes, 0);
+    evictedAtSeconds.assign(nodes, 0.0);
+    evictedFor.assign(nodes, 0.0);
     residentBytes = residentTextureBytes = reservedBytes = peakBytes = 0;
+    texturedTriangles = untexturedTriangles = 0;
     counters = {};
 }
 
@@ -59,6 +62,8 @@ void Residency::setResident(const Hierarchy& hierarchy, NodeId node) {
     addTo(resident, position, node);
     residentBytes += hierarchy.residentBytes[node];
     residentTextureBytes += hierarchy.textureBytes(node);
+    texturedTriangles += hierarchy.texturedTriangles[node];
+    untexturedTriangles += hierarchy.untexturedTriangles[node];
     if (above != kNoNode) ++loadedChildren[above];
     peakBytes = std::max(peakBytes, totalBytes());
 }
@@ -69,6 +74,8 @@ void Residency::setUnloaded(const Hierarchy& hierarchy, NodeId node) {
         removeFrom(resident, position, node);
         residentBytes -= hierarchy.residentBytes[node];
         residentTextureBytes -= hierarchy.textureBytes(node);
+        texturedTriangles -= hierarchy.texturedTriangles[node];
+        untexturedTriangles -= hierarchy.untexturedTriangles[node];
         loaded[node] = 0;
         if (hierarchy.parent[node] != kNoNode) --loadedChildren[hierarchy.parent[node]];
     } else {
@@ -84,7 +91,7 @@ void Residency::reserve(const Hierarchy& hierarchy, NodeId node) {
     FB_CHECK((state[node] == NodeState::unloaded || state[node] == NodeState::failedTemporarily));
     state[node] = NodeState::wanted;
     addTo(inFlight, position, node);
-    reservedBytes += hierarchy.residentBytes[node];
+    reservedBytes += flightBytes(hierarchy, node);
     peakBytes = std::max(peakBytes, totalBytes());
 }
 

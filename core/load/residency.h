@@ -49,6 +49,11 @@ struct LoadCounters {
     std::uint64_t bytes = 0;      // read from disk; the loader's count
 };
 
+// What a load may take before it is resident: its payload, and what it is decoded into.
+[[nodiscard]] inline std::uint64_t flightBytes(const Hierarchy& hierarchy, NodeId node) {
+    return hierarchy.residentBytes[node] + hierarchy.payload[node].sizeBytes;
+}
+
 struct Residency {
     std::vector<NodeState> state;
     std::vector<std::uint8_t> loaded;           // 1 where resident: the snapshot that the selection reads
@@ -59,9 +64,13 @@ struct Residency {
     std::vector<std::uint32_t> position;  // of a resident or in-flight node in its list: removal in O(1)
     std::vector<double> retryAtSeconds;   // failedTemporarily: not before this time
     std::vector<std::uint8_t> failures;   // since the node was last resident
+    // Of a node's children, when they were evicted last: when, and for what priority. They come back only when they would not
+    // go again for as much (sibling_groups.h).
+    std::vector<double> evictedAtSeconds, evictedFor;
     std::uint64_t residentBytes = 0;
     std::uint64_t residentTextureBytes = 0;  // of them: textures with mip levels
-    std::uint64_t reservedBytes = 0;  // of inFlight: what they will take when resident
+    std::uint64_t reservedBytes = 0;  // of inFlight: flightBytes() of each
+    std::uint64_t texturedTriangles = 0, untexturedTriangles = 0;  // of resident nodes
     std::uint64_t peakBytes = 0;      // of residentBytes + reservedBytes
     LoadCounters counters;
 

@@ -2,13 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "base/check.h"
 #include "load/plan_loads.h"
+#include "select/gain.h"
 
 namespace fb {
 namespace {
+
+// Seconds: a group stays away for so long after it was evicted, at least and at most; and what it was evicted for counts half as
+// much after each kHalfLife.
+constexpr double kLeastAway = 1.0, kMostAway = 20.0, kHalfLife = 4.0;
+// Of the gain of a node that is not in view: right beside it, and anywhere else.
+constexpr double kWeightBeside = 0.3, kLeastWeight = 0.1;
 
 // Resident nodes with children, by level from the top: a counting sort.
 void listParents(const Hierarchy& hierarchy, const Residency& residency, std::vector<NodeId>& parents) {
@@ -23,8 +31,34 @@ void listParents(const Hierarchy& hierarchy, const Residency& residency, std::ve
     }
 }
 
+// How much it matters to have the group's members in memory (algorithms section 4, Order).
+double importance(const PlanInput& input, const SiblingGroup& group, EffectWork& work) {
+    const Hierarchy& hierarchy = input.hierarchy;
+    const NodeId first = hierarchy.firstChild[group.parent];
+    double priority = 0.0, gain = 0.0, bytes = 1.0;
+    for (NodeId node = first; node < first + hierarchy.childCount[group.parent]; ++node) {
+        const NodeView seen = lookAtNode(hierarchy, node, input.view, input.select, input.effects, work);
+        priority = std::max(priority, seen.priority);
+        if (input.load.order == LoadOrder::priority) continue;
+        const double weight = seen.visible ? 1.0 : std::max(kLeastWeight, kWeightBeside * seen.frustumVisibility);
+        gain += weight * childErrorGain(hierarchy, node, seen.distance, input.view);
+        bytes += static_cast<double>(hierarchy.residentBytes[node]);
+    }
+    return input.load.order == LoadOrder::priority ? priority : gain / bytes;
+}
+
+// Free memory that is too small for anything else would be filled with what was evicted last, and evicted again with the next
+// load, many times a second.
+bool isBarred(const PlanInput& input, const Residency& residency, const SiblingGroup& group) {
+    const double gone = input.nowSeconds - residency.evictedAtSeconds[group.parent];
+    const double limit = input.load.swapMargin * residency.evictedFor[group.parent];
+    if (limit <= 0.0 || gone < 0.0 || gone > kMostAway || group.held.members > 0) return false;
+    return gone < kLeastAway || group.priority < limit * std::exp2(-gone / kHalfLife);
+}
+
 void addMember(const PlanInput& input, Residency& residency, NodeId node, SiblingGroup& group) {
-    const SiblingGroup::Part part{1, input.hierarchy.residentBytes[node]};
+    const SiblingGroup::Part part{1, residency.state[node] == NodeState::resident ? input.hierarchy.residentBytes[node]
+                                                                                 : flightBytes(input.hierarchy, node)};
     residency.memoryRefused[node] = 0;
     switch (residency.state[node]) {
         case NodeState::resident:
@@ -80,12 +114,8 @@ void gatherSiblingGroups(const PlanInput& input, Residency& residency, SiblingGr
         group.usable = reachable && !group.hopeless && (group.complete || group.broken);
         group.waiting = group.waiting || !reachable;
         if (!group.hopeless && (reachable || group.held.members > 0)) {
-            for (NodeId node = first; node < end; ++node) {
-                const double seen =
-                    lookAtNode(hierarchy, node, input.view, input.select, input.effects, into.effectWork).priority;
-                group.priority = std::max(group.priority, seen);
-            }
-            group.priority = std::min(group.priority, cap);
+            group.priority = std::min(importance(input, group, into.effectWork), cap);
+            group.barred = isBarred(input, residency, group);
         }
         into.groupOf[parent] = static_cast<std::uint32_t>(into.groups.size());
         into.groups.push_back(group);

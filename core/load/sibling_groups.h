@@ -51,6 +51,7 @@ struct SiblingGroup {
     bool usable = false;  // its members' children could be drawn
     bool pinned = false;  // holds a node of the front, or hangs above one that does
     bool evicted = false;  // in this frame
+    bool barred = false;   // not loaded yet: it was evicted a moment ago, for something that matters more
 };
 
 struct SiblingGroups {

@@ -3,13 +3,16 @@
 #include <utility>
 
 #include "load/decode_payload.h"
+#include "load/load_timeline.h"
 #include "load/loader.h"
 
 namespace fb {
 namespace {
 
 
-void giveBack(const UploadInput& input, Residency& residency, NodeId node, Error error) {
+void giveBack(const UploadInput& input, Residency& residency, const FinishedLoad& finished, double now, Error error) {
+    const NodeId node = finished.node;
+    if (input.timeline) input.timeline->noteFailed(finished.stamps, node, now);
     residency.setFailed(input.hierarchy, node, input.nowSeconds);
     ++residency.counters.failed;
     if (!input.onFault) return;
@@ -35,7 +38,7 @@ std::uint64_t takeFinishedLoads(const UploadInput& input, Loader& loader, NodeDe
         const NodeId node = finished.node;
         if (residency.state[node] != NodeState::wanted) continue;  // withdrawn before the loader heard of it
         if (!finished.content) {
-            giveBack(input, residency, node, std::move(finished.content.error()));
+            giveBack(input, residency, finished, loader.nowSeconds(), finished.content.error());
             continue;
         }
         residency.state[node] = NodeState::ready;
@@ -45,11 +48,12 @@ std::uint64_t takeFinishedLoads(const UploadInput& input, Loader& loader, NodeDe
         handled += bytes;
         cap = handled < budget ? budget - handled : 0;
         if (!sent) {
-            giveBack(input, residency, node, std::move(sent.error()));
+            giveBack(input, residency, finished, loader.nowSeconds(), std::move(sent.error()));
             continue;
         }
         residency.setResident(input.hierarchy, node);
         ++residency.counters.completed;
+        if (input.timeline) input.timeline->noteUploaded(finished.stamps, node, loader.nowSeconds());
         uploaded += bytes;
     }
     const LoaderCounters counters = loader.counters();

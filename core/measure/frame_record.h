@@ -31,6 +31,8 @@ struct FrameRecord {
     EffectWork effectWork;
     double selectUs = 0.0;
     std::uint64_t uploadBytes = 0, residentBytes = 0, reservedBytes = 0, budgetBytes = 0;
+    std::uint64_t textureBytes = 0;    // of residentBytes
+    double estimateBytes = 0.0;        // of resident nodes by the thesis: c_memory * cost
     std::uint32_t pendingLoads = 0, evictions = 0;
     double errorPixelsMax = 0.0, errorPixelsMean = 0.0;  // screen-space error of the front, mean by area
     std::array<std::uint32_t, kBoundByCount> boundBy{};

@@ -69,7 +69,10 @@ constexpr std::array kAfterLevels = {
     column<&R::refusedGroups>("refused_groups"),
     column<&R::refusedNeedMs>("refused_need_ms"),
     column<&R::skippedRoots>("skipped_roots"),
-    column<&R::fixedMs>("fixed_ms")};
+    column<&R::fixedMs>("fixed_ms"),
+    column<&R::reservedBytes>("reserved_bytes"),
+    column<&R::textureBytes>("texture_bytes"),
+    column<&R::estimateBytes>("estimate_bytes")};
 
 }  // namespace
 

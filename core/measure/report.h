@@ -8,6 +8,7 @@
 
 #include "base/result.h"
 #include "effects/effects.h"
+#include "load/load_timeline.h"
 #include "load/residency.h"
 #include "measure/frame_record.h"
 #include "measure/image_error.h"
@@ -22,6 +23,9 @@ struct ReplayReport {
     std::vector<FrameRecord> frames;
     LoadCounters loads;
     std::uint64_t budgetBytes = 0, peakBytes = 0;
+    std::uint64_t pinnedBytes = 0;  // of the roots
+    PrefetchScore prefetch;
+    std::string loadsCsv;  // see loads_csv.h
     struct EffectUse {
         std::string name, mode;
         std::uint64_t activeFrames = 0;
@@ -43,15 +47,17 @@ struct ReplayReport {
 //   few stalls of the machine do not move
 // - toggles.frames_per_toggle: frames / (up + down); null without toggles
 // - levels_share: mean over the frames with a front of the share of its nodes on each level
-// - memory.over_budget_frames: frames with resident + reserved > budget
+// - memory.over_budget_frames: frames with resident + reserved > budget. pinned_bytes: of the roots, which always stay;
+//   texture_peak_bytes: most of resident textures with mip levels; estimate_peak_bytes: of c_memory * cost, as the thesis counts
 // - infeasible_frames: frames in which the roots alone were estimated to take longer than the target
 // - err_px: mean of err_px_mean, p95 and max of err_px_max
 // - skipped_roots: mean number of roots in view that were not drawn at all
+// - prefetch: see PrefetchScore; late_s_mean: over the late ones, null where there are none
 // - refused: mean number of loaded groups that were refused, and of the time that all that is refused would take
 // - image: see ImageErrorSummary; a figure in decibels is null where all pictures are identical
 // - front_hash: of the last frame
 [[nodiscard]] std::string summaryJson(const ReplayReport& report);
-// frames.csv, summary.json and plots/*.png, *.svg into `folder`, which is made if need be.
+// frames.csv, loads.csv, summary.json and plots/*.png, *.svg into `folder`, which is made if need be.
 [[nodiscard]] Result<void> writeReport(const ReplayReport& report, const std::filesystem::path& folder);
 
 struct Distribution {

@@ -68,7 +68,22 @@ Json memoryOf(const ReplayReport& report) {
     };
     return {{"budget_bytes", report.budgetBytes},
             {"peak_bytes", report.peakBytes},
-            {"over_budget_frames", std::ranges::count_if(report.frames, over)}};
+            {"over_budget_frames", std::ranges::count_if(report.frames, over)},
+            {"pinned_bytes", report.pinnedBytes},
+            {"texture_peak_bytes", describe(collect(report.frames, &FrameRecord::textureBytes)).max},
+            {"estimate_peak_bytes", describe(collect(report.frames, &FrameRecord::estimateBytes)).max}};
+}
+
+Json prefetchOf(const PrefetchScore& score) {
+    const double late = static_cast<double>(score.late);
+    return {{"in_time", score.inTime},
+            {"late", score.late},
+            {"late_s_mean", numberOrNull(score.lateSeconds / late)},
+            {"never_drawn", score.neverDrawn},
+            {"wasted_bytes", score.wastedBytes},
+            {"absent_node_frames", score.absentNodeFrames},
+            {"reloads", score.reloads},
+            {"most_loads_of_one", score.mostLoadsOfOne}};
 }
 
 Json errorPixelsOf(const std::vector<FrameRecord>& frames) {
@@ -133,6 +148,7 @@ std::string summaryJson(const ReplayReport& report) {
                      {"suspended", loads.suspended}, {"cancelled", loads.cancelled},
                      {"evicted", loads.evicted},     {"bytes", loads.bytes},
                      {"failed", loads.failed}};
+    json["prefetch"] = prefetchOf(report.prefetch);
     json["skipped_roots"] = describe(collect(frames, &FrameRecord::skippedRoots)).mean;
     json["refused"] = {{"groups_mean", describe(collect(frames, &FrameRecord::refusedGroups)).mean},
                        {"need_ms_mean", describe(collect(frames, &FrameRecord::refusedNeedMs)).mean}};

@@ -9,6 +9,7 @@ Result<void> writeReport(const ReplayReport& report, const std::filesystem::path
     if (Result<void> made = makeFolder(plots); !made) return made;
     if (Result<void> written = writeFileAtomically(folder / "frames.csv", framesCsv(report)); !written)
         return written;
+    if (Result<void> written = writeFileAtomically(folder / "loads.csv", report.loadsCsv); !written) return written;
     if (Result<void> written = writeFileAtomically(folder / "summary.json", summaryJson(report)); !written) {
         return written;
     }

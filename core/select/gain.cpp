@@ -34,22 +34,26 @@ double benefitGain(const SelectInput& input, NodeId parent, const SelectState& s
 
 // The bound of section 8, and of it the part by which a child is finer: next to the camera the bound is the whole picture
 // for the parent and its children alike, and their difference would leave exactly those coarse.
-double errorGain(const SelectInput& input, NodeId parent, const SelectState& state) {
-    const Hierarchy& h = input.hierarchy;
+double childErrorGain(const Hierarchy& h, NodeId child, double distance, const View& view) {
+    const NodeId parent = h.parent[child];
     const double texel = texelMetres(h, parent), before = errorMetres(h, parent) + 0.5 * texel;
     if (!(before > 0.0)) return 0.0;
-    const double width = input.view.width, height = input.view.height, diagonal = std::hypot(width, height);
+    const double width = view.width, height = view.height;
+    const double scale = view.pixelsPerUnit / std::max(kNearestMetres, distance);
+    const double pixels = std::min(width * height, static_cast<double>(h.areaSquareMetres[child]) * scale * scale);
+    const double bound = before * view.pixelsPerUnit / std::max(kNearestMetres, distance - before);
+    // A coarser texture does not undo a better shape.
+    const double less = std::max(0.0, errorMetres(h, parent) - errorMetres(h, child)) +
+                        0.5 * std::max(0.0, texel - texelMetres(h, child));
+    return pixels * std::min(std::hypot(width, height), bound) * less / before;
+}
+
+double errorGain(const SelectInput& input, const SelectState& state) {
+    const Hierarchy& h = input.hierarchy;
     double gain = 0.0;
     for (const NodeId child : state.group) {
         const Box3d box{glm::dvec3(h.bounds[child].min), glm::dvec3(h.bounds[child].max)};
-        const double distance = box.distance(input.view.camera.eye);
-        const double scale = input.view.pixelsPerUnit / std::max(kNearestMetres, distance);
-        const double pixels = std::min(width * height, static_cast<double>(h.areaSquareMetres[child]) * scale * scale);
-        const double bound = before * input.view.pixelsPerUnit / std::max(kNearestMetres, distance - before);
-        // A coarser texture does not undo a better shape.
-        const double less = std::max(0.0, errorMetres(h, parent) - errorMetres(h, child)) +
-                            0.5 * std::max(0.0, texel - texelMetres(h, child));
-        gain += pixels * std::min(diagonal, bound) * less / before;
+        gain += childErrorGain(h, child, box.distance(input.view.camera.eye), input.view);
     }
     return gain;
 }

@@ -10,6 +10,9 @@ namespace fb {
 [[nodiscard]] double benefitGain(const SelectInput& input, NodeId parent, const SelectState& state);
 
 // By how many pixels how many pixels are wrong by less: pixels times pixels. 0 only where nothing gets finer.
-[[nodiscard]] double errorGain(const SelectInput& input, NodeId parent, const SelectState& state);
+[[nodiscard]] double errorGain(const SelectInput& input, const SelectState& state);
+
+// The part of it that one child brings, seen from `distance` metres.
+[[nodiscard]] double childErrorGain(const Hierarchy& hierarchy, NodeId child, double distance, const View& view);
 
 }  // namespace fb

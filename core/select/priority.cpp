@@ -32,12 +32,12 @@ NodeView lookAtNode(const Hierarchy& hierarchy, NodeId node, const View& view, c
     const Box3d exact{glm::dvec3(box.min), glm::dvec3(box.max)};
     seen.distance = std::max(settings.minDistance, exact.distance(eye));
 
-    double frustumVisibility = seen.visible ? 1.0 : 0.0;
+    seen.frustumVisibility = seen.visible ? 1.0 : 0.0;
     if (!seen.visible && effects[Effect::frustumFalloff]) {
         ++work[Effect::frustumFalloff];
-        frustumVisibility = std::max(0.0, 1.0 - outside / settings.frustumFalloff);
+        seen.frustumVisibility = std::max(0.0, 1.0 - outside / settings.frustumFalloff);
     }
-    const double visibility = 1.0 + settings.cVis * frustumVisibility;
+    const double visibility = 1.0 + settings.cVis * seen.frustumVisibility;
     double fore = 1.0;
     if (effects[Effect::foreshortening]) {
         ++work[Effect::foreshortening];

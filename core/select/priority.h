@@ -12,6 +12,7 @@ namespace fb {
 struct NodeView {
     double priority = 0.0;    // staticBenefit * vis * fore / (cost * d^2); always finite and > 0
     double distance = 0.0;    // metres, at least d_min
+    double frustumVisibility = 0.0;  // 1 where it meets the view, less beside it, with the effect frustum_falloff (thesis 4.2)
     bool visible = false;     // the node's box meets the view; its parent's visibility is the caller's business
     bool repaired = false;    // the formula gave no usable number and 1e-12 was taken (algorithms 5, case 4)
 };

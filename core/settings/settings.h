@@ -23,6 +23,7 @@ enum class PolicyId : std::uint8_t {
 };
 inline constexpr int kPolicyCount = 11;
 enum class GainMeasure : std::uint8_t { benefit, error };
+enum class LoadOrder : std::uint8_t { priority, gain };
 enum class CostModel : std::uint8_t { vTime, leastSquares };
 enum class ColourMode : std::uint8_t { scene, level };
 enum class EffectMode : std::uint8_t { off, on, automatic };

@@ -74,6 +74,7 @@ struct FlakyLoader final : Loader {
     }
     void advance(double seconds) override { loader->advance(seconds); }
     LoaderCounters counters() const override { return loader->counters(); }
+    double nowSeconds() const override { return loader->nowSeconds(); }
 };
 
 struct FlakyDevice final : NodeDevice {

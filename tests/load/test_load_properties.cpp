@@ -2,10 +2,13 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
+#include "load/load_timeline.h"
 #include "random_world.h"
+#include "select/gain.h"
 
 namespace fb::test {
 namespace {
@@ -20,6 +23,7 @@ struct RandomWalk {
     FlakyDevice device;
     Residency residency;
     LoadPlan plan;
+    LoadTimeline timeline;
     View view;
     SelectSettings select;
     LoadSettings load;
@@ -34,6 +38,7 @@ struct RandomWalk {
         loader = std::make_unique<FlakyLoader>(makeModelLoader(scene, model, false), seed + 2, faultRate);
         for (bool& on : effects.on) on = random.index(2) == 0;
         select.needAllChildren = random.index(4) != 0;
+        load.order = random.index(2) == 0 ? LoadOrder::priority : LoadOrder::gain;
         load.swapMargin = random.index(4) == 0 ? 1.0 : random.uniform();
         load.uploadMiBPerFrame = random.uniform(0.0625, 8.0);
         load.chunkKiB = random.uniform(4.0, 256.0);
@@ -47,6 +52,7 @@ struct RandomWalk {
             residency.setResident(scene.hierarchy, n);
             device.stored.insert(n);
         }
+        timeline.start(scene.hierarchy);
         changeBudget();
     }
 
@@ -76,10 +82,37 @@ struct RandomWalk {
     void frame(double seconds) {
         nowSeconds += seconds;
         loader->advance(seconds);
-        takeFinishedLoads({scene.hierarchy, load, nowSeconds, nullptr}, *loader, device, residency);
+        takeFinishedLoads({scene.hierarchy, load, nowSeconds, nullptr, &timeline}, *loader, device, residency);
         planLoads({scene.hierarchy, view, select, load, effects, inFront, nowSeconds}, residency, plan);
         for (const NodeId node : plan.evicted) device.release(node);
+        timeline.notePlan(plan, loader->nowSeconds());
         loader->publish(plan.wishes, load);
+    }
+
+    // What is told of loads agrees with the books.
+    void checkTimeline() const {
+        std::uint64_t ends[4] = {}, uploads = 0;
+        std::set<NodeId> open;
+        for (const LoadRecord& told : timeline.records()) {
+            double before = told.queuedAt;
+            for (const double at : {told.firstReadAt, told.readAt, told.decodedAt, told.uploadedAt, told.firstDrawnAt, told.endedAt}) {
+                if (std::isnan(at)) continue;
+                RC_ASSERT(at >= before);
+                before = at;
+            }
+            ++ends[static_cast<std::size_t>(told.end)];
+            uploads += std::isnan(told.uploadedAt) ? 0 : 1;
+            RC_ASSERT(std::isnan(told.endedAt) == (told.end == LoadEnd::none));
+            if (told.end != LoadEnd::none) continue;
+            RC_ASSERT(open.insert(told.node).second);
+            RC_ASSERT(std::isnan(told.uploadedAt) == residency.isInFlight(told.node));
+        }
+        const LoadCounters& c = residency.counters;
+        RC_ASSERT(timeline.records().size() == c.requested);
+        RC_ASSERT(uploads == c.completed);
+        RC_ASSERT(ends[static_cast<std::size_t>(LoadEnd::cancelled)] == c.cancelled);
+        RC_ASSERT(ends[static_cast<std::size_t>(LoadEnd::failed)] == c.failed);
+        RC_ASSERT(ends[static_cast<std::size_t>(LoadEnd::evicted)] == c.evicted);
     }
 
     void checkBooks() const {
@@ -93,7 +126,7 @@ struct RandomWalk {
             RC_ASSERT(device.stored.contains(n) == isResident);
             if (isResident) resident += h.residentBytes[n];
             if (residency.isInFlight(n)) {
-                reserved += h.residentBytes[n];
+                reserved += flightBytes(h, n);
                 ++inFlight;
             }
             if (h.parent[n] == kNoNode) {
@@ -108,6 +141,7 @@ struct RandomWalk {
         RC_ASSERT(children == residency.loadedChildren);
         RC_ASSERT(residency.peakBytes >= residency.totalBytes());
         const LoadCounters& c = residency.counters;
+        checkTimeline();
         RC_ASSERT(c.requested == c.completed + c.cancelled + c.failed + inFlight);
         RC_ASSERT(plan.wishes.size() == inFlight);
         std::set<NodeId> ended;  // parents whose children have all been listed
@@ -161,13 +195,18 @@ struct Oracle {
         if (parent == kNoNode) return std::numeric_limits<double>::infinity();
         const auto known = priorities.find(parent);
         if (known != priorities.end()) return known->second;
-        double greatest = 0.0;
+        double greatest = 0.0, gain = 0.0, bytes = 1.0;
         for (const NodeId child : childrenOf(parent)) {
             EffectWork work;
             const NodeView seen = lookAtNode(h, child, walk.view, walk.select, walk.effects, work);
             greatest = std::max(greatest, seen.priority);
+            double weight = 1.0;
+            if (!seen.visible) weight = std::max(0.1, 0.3 * seen.frustumVisibility);
+            gain += weight * childErrorGain(h, child, seen.distance, walk.view);
+            bytes += h.residentBytes[child];
         }
-        return priorities[parent] = hopeless(parent) ? 0.0 : std::min(greatest, priorityOf(h.parent[parent]));
+        const double own = walk.load.order == LoadOrder::gain ? gain / bytes : greatest;
+        return priorities[parent] = hopeless(parent) ? 0.0 : std::min(own, priorityOf(h.parent[parent]));
     }
     Nodes childrenOf(NodeId parent) const {
         Nodes children;
@@ -237,7 +276,9 @@ RC_GTEST_PROP(LoadProperties, AStillCameraComesToRestWithTheBestThatFits, (std::
         walk.frame(10.0);  // longer than any back-off
         walk.checkBooks();
         const bool moved = requested != walk.residency.counters.requested || !walk.plan.evicted.empty();
-        quiet = moved || !walk.plan.wishes.empty() ? 0 : quiet + 1;
+        const auto isBarred = [](const SiblingGroup& group) { return group.barred; };  // it may come back yet
+        const bool waits = std::ranges::any_of(walk.plan.groups.groups, isBarred);
+        quiet = moved || waits || !walk.plan.wishes.empty() ? 0 : quiet + 1;
     }
     const LoadCounters rest = walk.residency.counters;
     for (int frame = 0; frame < 300; ++frame) walk.frame(0.1);
@@ -253,7 +294,7 @@ RC_GTEST_PROP(LoadProperties, AStillCameraComesToRestWithTheBestThatFits, (std::
         if (h.isLeaf(parent) || walk.residency.loaded[parent] == 0) continue;
         std::uint64_t missing = 0;
         for (const NodeId child : oracle.childrenOf(parent)) {
-            if (walk.residency.loaded[child] == 0) missing += h.residentBytes[child];
+            if (walk.residency.loaded[child] == 0) missing += flightBytes(h, child);
         }
         const bool loadable = missing > 0 && !oracle.broken(parent) && !oracle.hopeless(parent) &&
                               oracle.completeOrUsable(h.parent[parent]);

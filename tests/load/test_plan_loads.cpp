@@ -229,6 +229,74 @@ TEST(PlanLoads, TakesTheWholeFlightWindowFromTheBudget) {
     EXPECT_EQ(flightWindowBytes(80u * kMiB), 10u * kMiB);
 }
 
+//  0 - {2}, 1 - {3}: 2 has the greater priority, 3 makes pixels wrong by less.
+struct TwoOrders : World {
+    TwoOrders() : World({{kRoot, 1, 10}, {kRoot, 1, 10}, {0, 9, 100}, {1, 5, 100}}) {
+        setBudget(150);
+        hierarchy.geometricErrorMetres = {0.5f, 0.75f, 0.25f, 0.25f};
+        hierarchy.areaSquareMetres = {1, 1, 1, 1};
+    }
+};
+
+TEST(PlanLoads, OrdersByPriorityOrByGainForAByte) {
+    TwoOrders world;
+    world.planFrame();
+    EXPECT_EQ(world.wished(), Nodes{2});
+    TwoOrders other;
+    other.load.order = LoadOrder::gain;
+    other.planFrame();
+    EXPECT_EQ(other.wished(), Nodes{3});
+    TwoOrders heavy;  // the same gain for twice as many bytes
+    heavy.hierarchy.residentBytes[3] = 130;
+    heavy.hierarchy.geometricErrorMetres = {0.75f, 0.75f, 0.25f, 0.25f};
+    heavy.load.order = LoadOrder::gain;
+    heavy.planFrame();
+    EXPECT_EQ(heavy.wished(), Nodes{2});
+}
+
+// 2 went for 3; then there is room again. Priorities 2 and 9, margin 1/2: it returns once 9/2, halved every 4 s, is below 2.
+TEST(PlanLoads, WhatHasJustGoneComesBackOnlyAfterAWhile) {
+    World world({{kRoot, 1, 10}, {kRoot, 1, 10}, {0, 2, 100}, {1, 0.5f, 100}});
+    world.setBudget(150);
+    world.planFrame();
+    world.deliverAll();
+    ASSERT_EQ(world.loadedNodes(), (Nodes{0, 1, 2}));
+    world.hierarchy.staticBenefit[3] = 9;
+    world.nowSeconds = 10.0;
+    world.planFrame();
+    EXPECT_EQ(world.plan.evicted, Nodes{2});
+    world.deliverAll();
+    world.setBudget(1000);
+    const auto wishedAt = [&](double seconds) {
+        world.nowSeconds = seconds;
+        world.planFrame();
+        return world.wished();
+    };
+    EXPECT_EQ(wishedAt(10.5), Nodes{});
+    EXPECT_EQ(world.refusedNodes(), Nodes{2});
+    EXPECT_EQ(wishedAt(10.0 + 4.5), Nodes{}) << "4.5 * 2^(-4.5/4) is 2.06";
+    EXPECT_EQ(wishedAt(10.0 + 4.8), Nodes{2}) << "1.96";
+}
+
+TEST(PlanLoads, WhatMattersAsMuchComesBackAfterASecond) {
+    World world({{kRoot, 1, 10}, {kRoot, 1, 10}, {0, 4, 100}, {1, 0.5f, 100}});
+    world.setBudget(150);
+    world.planFrame();
+    world.deliverAll();
+    world.hierarchy.staticBenefit[3] = 9;
+    world.planFrame();
+    ASSERT_EQ(world.plan.evicted, Nodes{2});
+    world.deliverAll();
+    world.setBudget(1000);
+    world.hierarchy.staticBenefit[2] = 8;  // it would not go again
+    world.nowSeconds = 0.9;
+    world.planFrame();
+    EXPECT_EQ(world.wished(), Nodes{});
+    world.nowSeconds = 1.1;
+    world.planFrame();
+    EXPECT_EQ(world.wished(), Nodes{2});
+}
+
 TEST(CheckBudget, RefusesABudgetBelowTheRootsWithTheNumberNeeded) {
     const std::vector<NodeSpec> specs = {{kRoot, 1, 3 * kMiB}, {kRoot, 1, 2 * kMiB + 1}, {0, 1, 100 * kMiB}};
     const Hierarchy hierarchy = makeHierarchy(specs);

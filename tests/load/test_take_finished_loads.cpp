@@ -27,6 +27,7 @@ struct ScriptedLoader final : Loader {
     }
     void advance(double) override {}
     LoaderCounters counters() const override { return {7, 0, 1234, 0}; }
+    double nowSeconds() const override { return 2.5; }
 };
 
 struct LoggingDevice final : NodeDevice {

@@ -59,6 +59,7 @@ struct World {
 
     explicit World(std::vector<NodeSpec> specs) : hierarchy(makeHierarchy(specs)) {
         select.cVis = 0.0;
+        load.order = LoadOrder::priority;
         load.swapMargin = 0.5;
         setBudget(1'000'000);
         residency.reset(hierarchy);

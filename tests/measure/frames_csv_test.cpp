@@ -19,7 +19,7 @@ std::string designHeader(int levels) {
            "bytes,"
            "pending_loads,evictions,err_px_max,err_px_mean,bound_by_time,bound_by_load,bound_by_hysteresis,"
            "bound_by_leaf,bound_by_memory,front_hash,bound_by_view,bound_by_policy,refused_groups,"
-           "refused_need_ms,skipped_roots,fixed_ms\n";
+           "refused_need_ms,skipped_roots,fixed_ms,reserved_bytes,texture_bytes,estimate_bytes\n";
 }
 
 TEST(FramesCsv, HasTheColumnsOfTheDesign) {
@@ -61,7 +61,7 @@ TEST(FramesCsv, WritesEachValueUnderItsName) {
     f.selectUs = 0.1;
     f.uploadBytes = 23;
     f.residentBytes = 24;
-    f.reservedBytes = 99;
+    f.reservedBytes = 41;
     f.budgetBytes = 25;
     f.pendingLoads = 26;
     f.evictions = 27;
@@ -78,6 +78,8 @@ TEST(FramesCsv, WritesEachValueUnderItsName) {
     f.refusedNeedMs = 38.5;
     f.skippedRoots = 39;
     f.fixedMs = 40.25;
+    f.textureBytes = 42;
+    f.estimateBytes = 43.5;
     f.frontHash = 0xdeadbeef00c0ffee;
     ReplayReport report;
     report.levels = 2;
@@ -85,7 +87,7 @@ TEST(FramesCsv, WritesEachValueUnderItsName) {
     EXPECT_EQ(framesCsv(report),
               designHeader(2) +
                   "1,2.5,33.25,4,-5.5,6,7,8,9.125,10,11,1e-05,13,14,15,16,17000000000,18,19,20,21,"
-                  "0.1,23,24,25,26,27,28,29,30,31,32,33,34,deadbeef00c0ffee,35,36,37,38.5,39,40.25\n");
+                  "0.1,23,24,25,26,27,28,29,30,31,32,33,34,deadbeef00c0ffee,35,36,37,38.5,39,40.25,41,42,43.5\n");
 }
 
 TEST(FramesCsv, LeavesTheFieldEmptyWhereTheNumberIsNotFinite) {
@@ -97,7 +99,7 @@ TEST(FramesCsv, LeavesTheFieldEmptyWhereTheNumberIsNotFinite) {
     report.frames = {f};
     EXPECT_EQ(framesCsv(report), designHeader(1) +
                                      "0,0,0,0,0,0,0,0,,,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,0,0,0,0,0,"
-                                     "0000000000000000,0,0,0,0,0,0\n");
+                                     "0000000000000000,0,0,0,0,0,0,0,0,0\n");
 }
 
 TEST(FramesCsv, WritesNumbersThatReadBackAsThemselves) {

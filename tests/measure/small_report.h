@@ -20,6 +20,7 @@ inline ReplayReport smallReport() {
     report.levels = 3;
     report.budgetBytes = 100;
     report.peakBytes = 101;
+    report.pinnedBytes = 20;
     report.loads = {.requested = 7,
                     .completed = 5,
                     .cancelled = 1,
@@ -27,6 +28,9 @@ inline ReplayReport smallReport() {
                     .evicted = 3,
                     .suspended = 2,
                     .bytes = 4096};
+    report.prefetch = {.inTime = 3, .late = 2, .lateSeconds = 0.5, .neverDrawn = 1, .wastedBytes = 640,
+                       .absentNodeFrames = 11, .reloads = 2, .mostLoadsOfOne = 3};
+    report.loadsCsv = "node,level\n";
     report.effects = {{"lighting", "auto", 2, 1.5, 7}};
 
     FrameRecord a;
@@ -63,6 +67,8 @@ inline ReplayReport smallReport() {
     b.pingPongs = 1;
     b.selectUs = 200.0;
     b.residentBytes = 90;
+    b.textureBytes = 70;
+    b.estimateBytes = 62.5;
     b.reservedBytes = 11;
     b.errorPixelsMax = 10.0;
     b.errorPixelsMean = 3.0;

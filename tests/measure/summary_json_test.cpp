@@ -29,7 +29,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
         "clock",     "device",        "frames",          "target_ms",
         "actual_ms", "infeasible_frames", "utilisation", "over_target_pct", "estimate_error_pct",
         "toggles",   "levels_share",  "front_nodes",     "triangles",
-        "select_us", "visited",       "memory",          "loads",
+        "select_us", "visited",       "memory",          "loads", "prefetch",
         "skipped_roots", "refused",   "err_px",          "effects",       "front_hash"};
     EXPECT_EQ(keysOf(json), names);
     EXPECT_EQ(keysOf(json["actual_ms"]),
@@ -42,13 +42,21 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
     EXPECT_EQ(keysOf(json["select_us"]), (std::vector<std::string>{"mean", "p99"}));
     EXPECT_EQ(keysOf(json["visited"]), (std::vector<std::string>{"mean", "max"}));
     EXPECT_EQ(keysOf(json["memory"]),
-              (std::vector<std::string>{"budget_bytes", "peak_bytes", "over_budget_frames"}));
+              (std::vector<std::string>{"budget_bytes", "peak_bytes", "over_budget_frames", "pinned_bytes",
+                                        "texture_peak_bytes", "estimate_peak_bytes"}));
     EXPECT_EQ(keysOf(json["loads"]), (std::vector<std::string>{"requested", "completed", "suspended",
                                                                "cancelled", "evicted", "bytes", "failed"}));
     EXPECT_EQ(keysOf(json["refused"]), (std::vector<std::string>{"groups_mean", "need_ms_mean"}));
     EXPECT_EQ(keysOf(json["err_px"]), (std::vector<std::string>{"mean", "p95", "max"}));
     EXPECT_EQ(keysOf(json["effects"][0]),
               (std::vector<std::string>{"name", "mode", "active_frames", "us_mean", "work"}));
+}
+
+TEST(SummaryJson, HasAScorecardOfTheLoads) {
+    EXPECT_EQ(summaryOf(test::smallReport())["prefetch"],
+              Json::parse(R"({"in_time": 3, "late": 2, "late_s_mean": 0.25, "never_drawn": 1, "wasted_bytes": 640,
+                              "absent_node_frames": 11, "reloads": 2, "most_loads_of_one": 3})"));
+    EXPECT_TRUE(summaryOf(ReplayReport{})["prefetch"]["late_s_mean"].is_null());
 }
 
 TEST(SummaryJson, SaysWhatWasReplayed) {
@@ -110,7 +118,8 @@ TEST(SummaryJson, WorksOutTheFront) {
 TEST(SummaryJson, WorksOutMemoryLoadsAndEffects) {
     const Json json = summaryOf(test::smallReport());
     EXPECT_EQ(json["memory"],
-              Json::parse(R"({"budget_bytes": 100, "peak_bytes": 101, "over_budget_frames": 1})"));
+              Json::parse(R"({"budget_bytes": 100, "peak_bytes": 101, "over_budget_frames": 1, "pinned_bytes": 20,
+                              "texture_peak_bytes": 70.0, "estimate_peak_bytes": 62.5})"));
     EXPECT_EQ(json["loads"], Json::parse(R"({"requested": 7, "completed": 5, "suspended": 2, "cancelled": 1,
                                              "evicted": 3, "bytes": 4096, "failed": 4})"));
     EXPECT_EQ(json["effects"],

@@ -37,6 +37,7 @@ TEST_F(WriteReport, WritesTablesAndPlotsAndNothingElse) {
     ASSERT_TRUE(writeReport(report, out).has_value());
     EXPECT_EQ(textOf(out / "frames.csv"), framesCsv(report));
     EXPECT_EQ(textOf(out / "summary.json"), summaryJson(report));
+    EXPECT_EQ(textOf(out / "loads.csv"), report.loadsCsv);
     std::set<std::string> files, expected;
     for (const auto& entry : std::filesystem::directory_iterator(out / "plots")) {
         files.insert(entry.path().filename().string());
@@ -46,7 +47,7 @@ TEST_F(WriteReport, WritesTablesAndPlotsAndNothingElse) {
         expected.insert(name + ".svg");
     }
     EXPECT_EQ(files, expected);
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 3);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(out), {}), 4);
 }
 
 TEST_F(WriteReport, WritesPlotsThatCanBeReadAndShowSomething) {
