@@ -29,7 +29,8 @@ void decideFrameEffects(Workbench& w, const FrameInput& input, FrameRecord& reco
 void takeLoads(Workbench& w, FrameRecord& record) {
     const ScopedMilliseconds timer(record.uploadMs);
     w.loader->advance(record.dtMs / 1000.0);
-    const UploadInput upload{w.scene->hierarchy, w.settings.load, w.nowSeconds, w.onFault, &w.timeline};
+    const double limitMs = w.clock == ClockKind::real ? w.settings.load.uploadMs : 0.0;
+    const UploadInput upload{w.scene->hierarchy, w.settings.load, w.nowSeconds, w.onFault, limitMs, &w.timeline};
     record.uploadBytes = takeFinishedLoads(upload, *w.loader, w.device(), w.residency);
 }
 

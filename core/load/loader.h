@@ -68,7 +68,7 @@ class Loader {
 [[nodiscard]] std::unique_ptr<Loader> makeModelLoader(const Scene& scene, const ModelSettings& model,
                                                       bool readContent);
 
-// One frame of the main thread's side: takes finished loads within the upload budget, one node at least
+// One frame of the main thread's side: takes finished loads within the budgets of bytes and time, one node at least
 // whatever its size, and makes them resident; a null content is uploaded as an empty one. Returns the bytes
 // made resident. A node that failed to load or to upload is tried again after 0.5 s, 1 s and 2 s, then given
 // up for good (residency.h); its parent stays drawn. `onFault` hears each failed try once.
@@ -77,6 +77,7 @@ struct UploadInput {
     const LoadSettings& settings;
     double nowSeconds;
     std::function<void(const Error&)> onFault;
+    double limitMs = 0.0;  // of this machine's time; 0: no limit, as model time must not depend on it
     LoadTimeline* timeline = nullptr;  // hears of uploads and failures, where there is one
 };
 std::uint64_t takeFinishedLoads(const UploadInput& input, Loader& loader, NodeDevice& device,

@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "base/clock.h"
 #include "load/decode_payload.h"
 #include "load/load_timeline.h"
 #include "load/loader.h"
@@ -34,7 +35,9 @@ std::uint64_t takeFinishedLoads(const UploadInput& input, Loader& loader, NodeDe
     std::uint64_t handled = 0, uploaded = 0;  // handled: failed uploads cost time as well
     std::uint64_t cap = std::numeric_limits<std::uint64_t>::max();
     FinishedLoad finished;
-    while (loader.take(finished, cap)) {
+    const SteadyClock::time_point begun = SteadyClock::now();
+    const auto hasTime = [&] { return handled == 0 || input.limitMs <= 0.0 || millisecondsSince(begun) < input.limitMs; };
+    while (hasTime() && loader.take(finished, cap)) {
         const NodeId node = finished.node;
         if (residency.state[node] != NodeState::wanted) continue;  // withdrawn before the loader heard of it
         if (!finished.content) {

@@ -82,7 +82,7 @@ struct RandomWalk {
     void frame(double seconds) {
         nowSeconds += seconds;
         loader->advance(seconds);
-        takeFinishedLoads({scene.hierarchy, load, nowSeconds, nullptr, &timeline}, *loader, device, residency);
+        takeFinishedLoads({scene.hierarchy, load, nowSeconds, nullptr, 0.0, &timeline}, *loader, device, residency);
         planLoads({scene.hierarchy, view, select, load, effects, inFront, nowSeconds}, residency, plan);
         for (const NodeId node : plan.evicted) device.release(node);
         timeline.notePlan(plan, loader->nowSeconds());

@@ -53,9 +53,10 @@ struct TakeWorld : World {
         setBudget(100 * kMiB);
         planFrame();
     }
+    double limitMs = 0.0;
     std::uint64_t take() {
         const UploadInput input{hierarchy, load, nowSeconds,
-                                [this](const Error& error) { faults.push_back(error.oneLine()); }};
+                                [this](const Error& error) { faults.push_back(error.oneLine()); }, limitMs};
         return takeFinishedLoads(input, loader, device, residency);
     }
 };
@@ -83,6 +84,21 @@ TEST(TakeFinishedLoads, UploadsOneNodeAFrameHoweverLargeItIs) {
     EXPECT_EQ(w.take(), 2u * kMiB);
     EXPECT_EQ(w.loadedNodes(), (Nodes{0, 1}));
     EXPECT_EQ(w.take(), 2u * kMiB);
+}
+
+// No time at all is time for one.
+TEST(TakeFinishedLoads, StaysWithinTheTimeOfAFrame) {
+    TakeWorld w;
+    w.limitMs = 1e-9;
+    for (const NodeId node : {1u, 2u, 3u}) w.loader.finish(node);
+    w.take();
+    EXPECT_EQ(w.device.uploads, (Nodes{1}));
+    w.take();
+    EXPECT_EQ(w.device.uploads, (Nodes{1, 2}));
+    w.limitMs = 0.0;
+    w.loader.finish(4);
+    w.take();
+    EXPECT_EQ(w.device.uploads, (Nodes{1, 2, 3, 4}));
 }
 
 TEST(TakeFinishedLoads, DoesNotUploadWhatWasWithdrawnMeanwhile) {
