@@ -62,7 +62,7 @@ TEST(ShippedPresets, Lakhia2004DiffersFromTheDefaultInWhatTheThesisSaysAlone) {
     EXPECT_EQ(paths, (std::vector<std::string>{"select.policy", "select.c_textured", "select.hyst_switch", "select.hyst_limit",
                                                "select.hyst_start", "select.hyst_band", "control.median_gate",
                                                "control.share_gain", "control.share_drop",
-                                               "control.share_proportional", "control.share_limit",
+                                               "control.share_proportional", "control.share_limit", "load.order",
                                                "effects.redistribution", "effects.fill_rate",
                                                "effects.texture_pressure"}));
     EXPECT_EQ(preset->settings.control.shareGain, 0.01);
@@ -70,11 +70,12 @@ TEST(ShippedPresets, Lakhia2004DiffersFromTheDefaultInWhatTheThesisSaysAlone) {
     EXPECT_FALSE(preset->settings.control.shareProportional);
 }
 
-TEST(ShippedPresets, LakhiaIsTheDefaultWithAnotherPolicy) {
+TEST(ShippedPresets, LakhiaIsTheDefaultWithAnotherPolicyAndItsOrderOfLoading) {
     const Result<Preset> preset = loadPreset(shipped("lakhia").string());
     ASSERT_TRUE(preset) << preset.error().oneLine();
-    EXPECT_EQ(presetDifferences(Settings{}, preset->settings).size(), 1u);
+    EXPECT_EQ(presetDifferences(Settings{}, preset->settings).size(), 2u);
     EXPECT_EQ(preset->settings.select.policy, PolicyId::lakhia);
+    EXPECT_EQ(preset->settings.load.order, LoadOrder::priority);
 }
 
 TEST(ShippedPresets, DefaultIsWhatTheProgramStartsWith) {
