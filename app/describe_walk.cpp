@@ -33,6 +33,7 @@ ReplayReport describeWalk(const Workbench& w, const WalkNames& names, std::vecto
     const LoaderCounters loader = w.loader->counters();
     report.loads.suspended = loader.suspended - w.loaderBefore.suspended;
     report.loads.bytes = loader.bytesRead - w.loaderBefore.bytesRead;
+    report.loads.seeks = loader.seeks - w.loaderBefore.seeks;
     report.prefetch = w.timeline.score();
     report.loadsCsv = loadsCsv(w.scene->hierarchy, w.timeline.records(), w.walkBeganSeconds);
     for (NodeId root = 0; root < w.scene->hierarchy.rootCount; ++root)

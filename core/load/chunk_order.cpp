@@ -5,6 +5,11 @@
 #include "base/check.h"
 
 namespace fb {
+namespace {
+
+constexpr std::uint64_t kSkippedBytes = 4096;
+
+}  // namespace
 
 std::uint64_t chunkBytes(const LoadSettings& settings) {
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(settings.chunkKiB * 1024.0));
@@ -44,6 +49,15 @@ StartedLoad& ChunkOrder::choose() {
     if (StartedLoad* load = findStarted(node)) return *load;
     started_.push_back({node, 0, {}, {}});
     return started_.back();
+}
+
+bool ChunkOrder::moveHead(std::uint32_t pack, std::uint64_t offsetBytes, std::uint64_t bytes) {
+    const bool follows = headKnown_ && pack == headPack_ && offsetBytes >= headOffset_ && offsetBytes - headOffset_ < kSkippedBytes;
+    if (!follows) ++counters_.seeks;
+    headKnown_ = true;
+    headPack_ = pack;
+    headOffset_ = offsetBytes + bytes;
+    return follows;
 }
 
 bool ChunkOrder::isWished(NodeId node) const {

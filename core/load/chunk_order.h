@@ -33,6 +33,10 @@ class ChunkOrder {
     // A load that is wished for is finished, well or not: it is neither wished for nor started any more.
     void finish(NodeId node);
 
+    // Where a disk's head stands after the chunk that is read next. True where it follows the one before: the padding between
+    // two payloads of a pack costs no seek, a disk reads whole blocks, and ahead.
+    [[nodiscard]] bool moveHead(std::uint32_t pack, std::uint64_t offsetBytes, std::uint64_t bytes);
+
     [[nodiscard]] const LoaderCounters& counters() const { return counters_; }
     void countRead(std::uint64_t bytes) { counters_.bytesRead += bytes; }
 
@@ -45,6 +49,9 @@ class ChunkOrder {
     std::size_t current_ = kNone;       // the wish under way
     std::vector<StartedLoad> started_;  // few: the one under way and those suspended
     LoaderCounters counters_;
+    bool headKnown_ = false;  // where the chunk before ended
+    std::uint32_t headPack_ = 0;
+    std::uint64_t headOffset_ = 0;
 };
 
 }  // namespace fb

@@ -39,6 +39,7 @@ struct LoaderCounters {
     std::uint64_t cancelled = 0;  // loads begun or finished whose wish was withdrawn
     std::uint64_t bytesRead = 0;
     std::uint64_t wastedBytes = 0;  // of bytesRead, for cancelled loads
+    std::uint64_t seeks = 0;        // chunks that did not follow the one before on disk
 };
 
 class Loader {

@@ -87,7 +87,8 @@ class ThreadLoader final : public Loader {
         return {suspended_.load(std::memory_order_relaxed),
                 cancelled_.load(std::memory_order_relaxed) + droppedLoads_,
                 bytesRead_.load(std::memory_order_relaxed),
-                wastedBytes_.load(std::memory_order_relaxed) + droppedBytes_};
+                wastedBytes_.load(std::memory_order_relaxed) + droppedBytes_,
+                seeks_.load(std::memory_order_relaxed)};
     }
 
   private:
@@ -157,6 +158,7 @@ class ThreadLoader final : public Loader {
         }
         const std::uint64_t bytes = std::min(chunkBytes_, payload.sizeBytes - load.filledBytes);
         const std::span<std::uint8_t> into(load.bytes.data() + load.filledBytes, bytes);
+        static_cast<void>(order_.moveHead(payload.pack, payload.offset + load.filledBytes, bytes));
         if (Result<void> read = source_->readAt(payload.pack, payload.offset + load.filledBytes, into);
             !read) {
             if (read.error().place.empty()) read.error().place = nodePlace(load.node);
@@ -195,6 +197,7 @@ class ThreadLoader final : public Loader {
         cancelled_.store(order_.counters().cancelled, std::memory_order_relaxed);
         bytesRead_.store(order_.counters().bytesRead, std::memory_order_relaxed);
         wastedBytes_.store(order_.counters().wastedBytes, std::memory_order_relaxed);
+        seeks_.store(order_.counters().seeks, std::memory_order_relaxed);
     }
 
     const Scene& scene_;
@@ -219,7 +222,7 @@ class ThreadLoader final : public Loader {
     bool fresh_ = false;
     bool stopping_ = false;
     FinishedQueue queue_;
-    std::atomic<std::uint64_t> suspended_{0}, cancelled_{0}, bytesRead_{0}, wastedBytes_{0};
+    std::atomic<std::uint64_t> suspended_{0}, cancelled_{0}, bytesRead_{0}, wastedBytes_{0}, seeks_{0};
 
     // Loader thread.
     ChunkOrder order_;

@@ -17,8 +17,6 @@ namespace {
 constexpr double kNanosecondsPerSecond = 1e9;
 constexpr double kNanosecondsPerMillisecond = 1e6;
 constexpr double kNanosecondsPerMicrosecond = 1e3;  // 1 MB/s is 1 byte a microsecond
-// The padding between two payloads of a pack costs no seek: a real disk reads whole blocks, and ahead.
-constexpr std::uint64_t kSkippedBytes = 4096;
 
 class ModelLoader final : public Loader {
   public:
@@ -86,13 +84,9 @@ class ModelLoader final : public Loader {
         const PayloadRef& payload = scene_.hierarchy.payload[load.node];
         const std::uint64_t offset = payload.offset + load.filledBytes;
         readingBytes_ = std::min<std::uint64_t>(chunkBytes_, payload.sizeBytes - load.filledBytes);
-        const bool follows = headKnown_ && payload.pack == headPack_ && offset >= headOffset_ &&
-                             offset - headOffset_ < kSkippedBytes;
+        const bool follows = order_.moveHead(payload.pack, offset, readingBytes_);
         chunkEndNs_ = nowNs_ + (follows ? 0 : latencyNs_) +
                       std::llround(static_cast<double>(readingBytes_) * nanosecondsPerByte_);
-        headKnown_ = true;
-        headPack_ = payload.pack;
-        headOffset_ = offset + readingBytes_;
         reading_ = load.node;
         return true;
     }
@@ -122,10 +116,6 @@ class ModelLoader final : public Loader {
     NodeId reading_ = kNoNode;  // the chunk under way
     std::uint64_t readingBytes_ = 0;
     std::int64_t chunkEndNs_ = 0;
-    bool headKnown_ = false;  // where the chunk before ended
-    std::uint32_t headPack_ = 0;
-    std::uint64_t headOffset_ = 0;
-
     std::uint64_t chunkBytes_ = 1;
     ChunkOrder order_;
     std::vector<Wish> wishes_;

@@ -47,6 +47,7 @@ struct LoadCounters {
     std::uint64_t evicted = 0;    // resident nodes given up
     std::uint64_t suspended = 0;  // loads that stepped back for a more urgent one; the loader's count
     std::uint64_t bytes = 0;      // read from disk; the loader's count
+    std::uint64_t seeks = 0;      // chunks that did not follow the one before on disk; the loader's count
 };
 
 // What a load may take before it is resident: its payload, and what it is decoded into.

@@ -62,6 +62,7 @@ std::uint64_t takeFinishedLoads(const UploadInput& input, Loader& loader, NodeDe
     const LoaderCounters counters = loader.counters();
     residency.counters.suspended = counters.suspended;
     residency.counters.bytes = counters.bytesRead;
+    residency.counters.seeks = counters.seeks;
     return uploaded;
 }
 

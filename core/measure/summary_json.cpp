@@ -147,7 +147,7 @@ std::string summaryJson(const ReplayReport& report) {
     json["loads"] = {{"requested", loads.requested}, {"completed", loads.completed},
                      {"suspended", loads.suspended}, {"cancelled", loads.cancelled},
                      {"evicted", loads.evicted},     {"bytes", loads.bytes},
-                     {"failed", loads.failed}};
+                     {"failed", loads.failed},       {"seeks", loads.seeks}};
     json["prefetch"] = prefetchOf(report.prefetch);
     json["skipped_roots"] = describe(collect(frames, &FrameRecord::skippedRoots)).mean;
     json["refused"] = {{"groups_mean", describe(collect(frames, &FrameRecord::refusedGroups)).mean},

@@ -54,6 +54,7 @@ TEST(ModelLoader, PaysNoLatencyForWhatFollowsOnDisk) {
     EXPECT_EQ(w.after(1), 2u) << "2000 bytes";
     EXPECT_EQ(w.after(7999), kNoNode);
     EXPECT_EQ(w.after(1), 3u) << "5 ms + 3000 bytes";
+    EXPECT_EQ(w.loader->counters().seeks, 2u);
 }
 
 TEST(ModelLoader, PaysNoLatencyForThePaddingBetweenPayloads) {
@@ -62,6 +63,7 @@ TEST(ModelLoader, PaysNoLatencyForThePaddingBetweenPayloads) {
     w.publish({{1, 2.0}, {2, 2.0}});
     EXPECT_EQ(w.after(6000), 1u);
     EXPECT_EQ(w.after(2000), 2u);
+    EXPECT_EQ(w.loader->counters().seeks, 1u);
 }
 
 TEST(ModelLoader, PaysLatencyWhenItGoesBack) {

@@ -27,7 +27,8 @@ inline ReplayReport smallReport() {
                     .failed = 4,
                     .evicted = 3,
                     .suspended = 2,
-                    .bytes = 4096};
+                    .bytes = 4096,
+                    .seeks = 6};
     report.prefetch = {.inTime = 3, .late = 2, .lateSeconds = 0.5, .neverDrawn = 1, .wastedBytes = 640,
                        .absentNodeFrames = 11, .reloads = 2, .mostLoadsOfOne = 3};
     report.loadsCsv = "node,level\n";

@@ -45,7 +45,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
               (std::vector<std::string>{"budget_bytes", "peak_bytes", "over_budget_frames", "pinned_bytes",
                                         "texture_peak_bytes", "estimate_peak_bytes"}));
     EXPECT_EQ(keysOf(json["loads"]), (std::vector<std::string>{"requested", "completed", "suspended",
-                                                               "cancelled", "evicted", "bytes", "failed"}));
+                                                               "cancelled", "evicted", "bytes", "failed", "seeks"}));
     EXPECT_EQ(keysOf(json["refused"]), (std::vector<std::string>{"groups_mean", "need_ms_mean"}));
     EXPECT_EQ(keysOf(json["err_px"]), (std::vector<std::string>{"mean", "p95", "max"}));
     EXPECT_EQ(keysOf(json["effects"][0]),
@@ -121,7 +121,7 @@ TEST(SummaryJson, WorksOutMemoryLoadsAndEffects) {
               Json::parse(R"({"budget_bytes": 100, "peak_bytes": 101, "over_budget_frames": 1, "pinned_bytes": 20,
                               "texture_peak_bytes": 70.0, "estimate_peak_bytes": 62.5})"));
     EXPECT_EQ(json["loads"], Json::parse(R"({"requested": 7, "completed": 5, "suspended": 2, "cancelled": 1,
-                                             "evicted": 3, "bytes": 4096, "failed": 4})"));
+                                             "evicted": 3, "bytes": 4096, "failed": 4, "seeks": 6})"));
     EXPECT_EQ(json["effects"],
               Json::parse(R"([{"name": "lighting", "mode": "auto", "active_frames": 2, "us_mean": 1.5, "work": 7}])"));
 }

@@ -61,10 +61,11 @@ TEST(Window, IsFlownAndTunedByHand) {
     EXPECT_GT(moved, 2.0);
     EXPECT_EQ(target.front(), 600.0);
     EXPECT_NEAR(target.back(), 1.5, 0.5);
-    // With 600 ms everything in view is drawn in full; with 1.5 ms the front goes up to the roots.
+    // With 600 ms everything in view is drawn in full; with 1.5 ms the front goes up to the four roots, but where a root's
+    // children in view take less than it does: some thousands of triangles of 120,000.
     const auto tuned = static_cast<std::size_t>(std::ranges::find(target, target.back()) - target.begin());
     EXPECT_GT(triangles[tuned - 1], 3.0 * triangles.back());
-    EXPECT_EQ(columns.at("level0").back(), columns.at("front_nodes").back());
+    EXPECT_LE(triangles.back(), 6000.0);
     for (int picture = 1; picture <= 3; ++picture) {
         EXPECT_GT(std::filesystem::file_size(folder / ("session/frontbench-" + std::to_string(picture) + ".png")), 20000u);
     }
