@@ -36,8 +36,7 @@ ReplayReport describeWalk(const Workbench& w, const WalkNames& names, std::vecto
     report.loads.seeks = loader.seeks - w.loaderBefore.seeks;
     report.prefetch = w.timeline.score();
     report.loadsCsv = loadsCsv(w.scene->hierarchy, w.timeline.records(), w.walkBeganSeconds);
-    for (NodeId root = 0; root < w.scene->hierarchy.rootCount; ++root)
-        report.pinnedBytes += w.scene->hierarchy.residentBytes[root];
+    report.pinnedBytes = pinnedBytes(w.scene->hierarchy);
     report.budgetBytes = budgetBytes(w.settings.load);
     report.peakBytes = w.residency.peakBytes;
     for (const EffectRow& row : effectTable()) {

@@ -3,6 +3,18 @@
 #include <algorithm>
 
 namespace fb {
+namespace {
+
+// A request that was withdrawn and made again before the loader heard of it goes on with what was read before.
+void stamp(LoadRecord& record, const LoadStamps& stamps) {
+    const auto notBeforeQueued = [&record](double at) { return at < record.queuedAt ? record.queuedAt : at; };
+    record.firstReadAt = notBeforeQueued(stamps.firstRead);
+    record.readAt = notBeforeQueued(stamps.read);
+    record.decodedAt = notBeforeQueued(stamps.decoded);
+    record.suspensions = stamps.suspensions;
+}
+
+}  // namespace
 
 void LoadTimeline::start(const Hierarchy& hierarchy) {
     const std::size_t nodes = hierarchy.size();
@@ -14,7 +26,7 @@ void LoadTimeline::start(const Hierarchy& hierarchy) {
     missedIn_.assign(nodes, 0);
     missedAt_.assign(nodes, 0.0);
     timesLoaded_.assign(nodes, 0);
-    notDrawn_.assign(nodes, 0);
+    notDrawn_.assign(nodes, Arrival::none);
     score_ = {};
 }
 
@@ -35,11 +47,11 @@ void LoadTimeline::close(NodeId node, LoadEnd end, double now) {
 void LoadTimeline::notePlan(const LoadPlan& plan, double now) {
     for (const NodeId node : plan.withdrawn) close(node, LoadEnd::cancelled, now);
     for (const NodeId node : plan.evicted) {
-        if (notDrawn_[node] != 0) {
+        if (notDrawn_[node] != Arrival::none) {
             ++score_.neverDrawn;
             score_.wastedBytes += hierarchy_->residentBytes[node];
         }
-        notDrawn_[node] = 0;
+        notDrawn_[node] = Arrival::none;
         close(node, LoadEnd::evicted, now);
     }
     for (const NodeId node : plan.requested) {
@@ -53,15 +65,6 @@ void LoadTimeline::notePlan(const LoadPlan& plan, double now) {
     }
 }
 
-// A request that was withdrawn and made again before the loader heard of it goes on with what was read before.
-void LoadTimeline::stamp(LoadRecord& record, const LoadStamps& stamps) {
-    const auto notBeforeQueued = [&record](double at) { return at < record.queuedAt ? record.queuedAt : at; };
-    record.firstReadAt = notBeforeQueued(stamps.firstRead);
-    record.readAt = notBeforeQueued(stamps.read);
-    record.decodedAt = notBeforeQueued(stamps.decoded);
-    record.suspensions = stamps.suspensions;
-}
-
 void LoadTimeline::noteUploaded(const LoadStamps& stamps, NodeId node, double now) {
     if (LoadRecord* record = openRecord(node)) {
         stamp(*record, stamps);
@@ -69,7 +72,7 @@ void LoadTimeline::noteUploaded(const LoadStamps& stamps, NodeId node, double no
     }
     if (++timesLoaded_[node] > 1) ++score_.reloads;
     score_.mostLoadsOfOne = std::max(score_.mostLoadsOfOne, timesLoaded_[node]);
-    notDrawn_[node] = isMissed(node) ? 2 : 1;
+    notDrawn_[node] = isMissed(node) ? Arrival::late : Arrival::inTime;
     if (!isMissed(node)) return;
     ++score_.late;
     score_.lateSeconds += now - missedAt_[node];
@@ -82,9 +85,9 @@ void LoadTimeline::noteFailed(const LoadStamps& stamps, NodeId node, double now)
 }
 
 void LoadTimeline::noteDrawn(NodeId node, double now) {
-    if (notDrawn_[node] == 0) return;
-    if (notDrawn_[node] == 1) ++score_.inTime;
-    notDrawn_[node] = 0;
+    if (notDrawn_[node] == Arrival::none) return;
+    if (notDrawn_[node] == Arrival::inTime) ++score_.inTime;
+    notDrawn_[node] = Arrival::none;
     if (LoadRecord* record = openRecord(node)) record->firstDrawnAt = now;
 }
 

@@ -61,7 +61,6 @@ class LoadTimeline {
   private:
     [[nodiscard]] LoadRecord* openRecord(NodeId node);
     [[nodiscard]] bool isMissed(NodeId node) const { return selections_ > 0 && missedIn_[node] == selections_; }
-    void stamp(LoadRecord& record, const LoadStamps& stamps);
     void noteMissed(NodeId node, double now);
     void close(NodeId node, LoadEnd end, double now);
     void noteDrawn(NodeId node, double now);
@@ -74,7 +73,8 @@ class LoadTimeline {
     std::vector<std::uint64_t> missedIn_;    // the last selection that missed it
     std::vector<double> missedAt_;           // the time of the first of those in a row
     std::vector<std::uint32_t> timesLoaded_;
-    std::vector<std::uint8_t> notDrawn_;     // resident by a load, and not drawn since: 1; 2 where it came late
+    enum class Arrival : std::uint8_t { none, inTime, late };
+    std::vector<Arrival> notDrawn_;          // how it came, until it is drawn or evicted
     PrefetchScore score_;
 };
 

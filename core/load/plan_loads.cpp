@@ -127,9 +127,14 @@ void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan) {
     }
 }
 
+std::uint64_t pinnedBytes(const Hierarchy& hierarchy) {
+    std::uint64_t bytes = 0;
+    for (NodeId root = 0; root < hierarchy.rootCount; ++root) bytes += hierarchy.residentBytes[root];
+    return bytes;
+}
+
 Result<void> checkBudget(const Hierarchy& hierarchy, const LoadSettings& load) {
-    std::uint64_t rootBytes = 0;
-    for (NodeId root = 0; root < hierarchy.rootCount; ++root) rootBytes += hierarchy.residentBytes[root];
+    const std::uint64_t rootBytes = pinnedBytes(hierarchy);
     if (rootBytes <= budgetBytes(load)) return {};
     const auto neededMiB =
         static_cast<std::uint64_t>(std::ceil(static_cast<double>(rootBytes) / kBytesPerMiB));

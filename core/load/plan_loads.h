@@ -64,6 +64,9 @@ struct PlanInput {
 // whenever the pinned roots allow it, and fills `plan`. The roots must be resident.
 void planLoads(const PlanInput& input, Residency& residency, LoadPlan& plan);
 
+// Of the roots, which always stay.
+[[nodiscard]] std::uint64_t pinnedBytes(const Hierarchy& hierarchy);
+
 // Error with the number needed when the roots alone do not fit into the budget.
 [[nodiscard]] Result<void> checkBudget(const Hierarchy& hierarchy, const LoadSettings& load);
 

@@ -35,13 +35,14 @@ void listParents(const Hierarchy& hierarchy, const Residency& residency, std::ve
 double importance(const PlanInput& input, const SiblingGroup& group, EffectWork& work) {
     const Hierarchy& hierarchy = input.hierarchy;
     const NodeId first = hierarchy.firstChild[group.parent];
+    const ChildErrorGain child(hierarchy, group.parent, input.view);
     double priority = 0.0, gain = 0.0, bytes = 1.0;
     for (NodeId node = first; node < first + hierarchy.childCount[group.parent]; ++node) {
         const NodeView seen = lookAtNode(hierarchy, node, input.view, input.select, input.effects, work);
         priority = std::max(priority, seen.priority);
         if (input.load.order == LoadOrder::priority) continue;
         const double weight = seen.visible ? 1.0 : std::max(kLeastWeight, kWeightBeside * seen.frustumVisibility);
-        gain += weight * childErrorGain(hierarchy, node, seen.distance, input.view);
+        gain += weight * child.of(node, seen.distance);
         bytes += static_cast<double>(hierarchy.residentBytes[node]);
     }
     return input.load.order == LoadOrder::priority ? priority : gain / bytes;

@@ -32,28 +32,35 @@ double benefitGain(const SelectInput& input, NodeId parent, const SelectState& s
     return gain;
 }
 
+ChildErrorGain::ChildErrorGain(const Hierarchy& h, NodeId parent, const View& view)
+    : hierarchy_(h),
+      pixelsPerUnit_(view.pixelsPerUnit),
+      picture_(1.0 * view.width * view.height),
+      diagonal_(std::hypot(view.width, view.height)),
+      shape_(errorMetres(h, parent)),
+      texel_(texelMetres(h, parent)),
+      before_(shape_ + 0.5 * texel_) {}
+
 // The bound of section 8, and of it the part by which a child is finer: next to the camera the bound is the whole picture
 // for the parent and its children alike, and their difference would leave exactly those coarse.
-double childErrorGain(const Hierarchy& h, NodeId child, double distance, const View& view) {
-    const NodeId parent = h.parent[child];
-    const double texel = texelMetres(h, parent), before = errorMetres(h, parent) + 0.5 * texel;
-    if (!(before > 0.0)) return 0.0;
-    const double width = view.width, height = view.height;
-    const double scale = view.pixelsPerUnit / std::max(kNearestMetres, distance);
-    const double pixels = std::min(width * height, static_cast<double>(h.areaSquareMetres[child]) * scale * scale);
-    const double bound = before * view.pixelsPerUnit / std::max(kNearestMetres, distance - before);
+double ChildErrorGain::of(NodeId child, double distance) const {
+    if (!(before_ > 0.0)) return 0.0;
+    const double scale = pixelsPerUnit_ / std::max(kNearestMetres, distance);
+    const double pixels = std::min(picture_, static_cast<double>(hierarchy_.areaSquareMetres[child]) * scale * scale);
+    const double bound = before_ * pixelsPerUnit_ / std::max(kNearestMetres, distance - before_);
     // A coarser texture does not undo a better shape.
-    const double less = std::max(0.0, errorMetres(h, parent) - errorMetres(h, child)) +
-                        0.5 * std::max(0.0, texel - texelMetres(h, child));
-    return pixels * std::min(std::hypot(width, height), bound) * less / before;
+    const double less = std::max(0.0, shape_ - errorMetres(hierarchy_, child)) +
+                        0.5 * std::max(0.0, texel_ - texelMetres(hierarchy_, child));
+    return pixels * std::min(diagonal_, bound) * less / before_;
 }
 
-double errorGain(const SelectInput& input, const SelectState& state) {
+double errorGain(const SelectInput& input, NodeId parent, const SelectState& state) {
     const Hierarchy& h = input.hierarchy;
+    const ChildErrorGain child(h, parent, input.view);
     double gain = 0.0;
-    for (const NodeId child : state.group) {
-        const Box3d box{glm::dvec3(h.bounds[child].min), glm::dvec3(h.bounds[child].max)};
-        gain += childErrorGain(h, child, box.distance(input.view.camera.eye), input.view);
+    for (const NodeId node : state.group) {
+        const Box3d box{glm::dvec3(h.bounds[node].min), glm::dvec3(h.bounds[node].max)};
+        gain += child.of(node, box.distance(input.view.camera.eye));
     }
     return gain;
 }

@@ -10,9 +10,19 @@ namespace fb {
 [[nodiscard]] double benefitGain(const SelectInput& input, NodeId parent, const SelectState& state);
 
 // By how many pixels how many pixels are wrong by less: pixels times pixels. 0 only where nothing gets finer.
-[[nodiscard]] double errorGain(const SelectInput& input, const SelectState& state);
+[[nodiscard]] double errorGain(const SelectInput& input, NodeId parent, const SelectState& state);
 
-// The part of it that one child brings, seen from `distance` metres.
-[[nodiscard]] double childErrorGain(const Hierarchy& hierarchy, NodeId child, double distance, const View& view);
+// The parts of it: what one child of `parent` brings.
+class ChildErrorGain {
+  public:
+    ChildErrorGain(const Hierarchy& hierarchy, NodeId parent, const View& view);
+    // Seen from `distance` metres.
+    [[nodiscard]] double of(NodeId child, double distance) const;
+
+  private:
+    const Hierarchy& hierarchy_;
+    double pixelsPerUnit_, picture_, diagonal_;  // pixels
+    double shape_, texel_, before_;              // of the parent, in metres: geometric error, edge of a texel, both together
+};
 
 }  // namespace fb

@@ -83,7 +83,7 @@ void RefinementTree::add(NodeId node, std::uint32_t parent, const SelectInput& i
 void RefinementTree::weigh(Refinement& r, const SelectInput& input, const SelectState& state) const {
     double childrenMs = 0.0;
     for (const NodeId child : state.group) childrenMs += nodeTimeMs(input.time, input.hierarchy, child);
-    r.gain = gain_ == GainMeasure::error ? errorGain(input, state) : benefitGain(input, r.node, state);
+    r.gain = gain_ == GainMeasure::error ? errorGain(input, r.node, state) : benefitGain(input, r.node, state);
     r.extraMs = childrenMs - r.ownMs;
     r.value = r.extraMs > 0.0 ? r.gain / std::max(r.extraMs, kLeastExtraMs) : kSavingFactor * r.gain;
     r.value = std::min(r.value, kLargestValue);

@@ -202,7 +202,7 @@ struct Oracle {
             greatest = std::max(greatest, seen.priority);
             double weight = 1.0;
             if (!seen.visible) weight = std::max(0.1, 0.3 * seen.frustumVisibility);
-            gain += weight * childErrorGain(h, child, seen.distance, walk.view);
+            gain += weight * ChildErrorGain(h, parent, walk.view).of(child, seen.distance);
             bytes += h.residentBytes[child];
         }
         const double own = walk.load.order == LoadOrder::gain ? gain / bytes : greatest;
