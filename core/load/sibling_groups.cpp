@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "load/plan_loads.h"
 #include "select/gain.h"
+#include "select/surface_distance.h"
 
 namespace fb {
 namespace {
@@ -36,13 +37,14 @@ double importance(const PlanInput& input, const SiblingGroup& group, EffectWork&
     const Hierarchy& hierarchy = input.hierarchy;
     const NodeId first = hierarchy.firstChild[group.parent];
     const ChildErrorGain child(hierarchy, group.parent, input.view);
+    const glm::dvec3 eye = predictedEye(input.view, input.select, input.effects);
     double priority = 0.0, gain = 0.0, bytes = 1.0;
     for (NodeId node = first; node < first + hierarchy.childCount[group.parent]; ++node) {
         const NodeView seen = lookAtNode(hierarchy, node, input.view, input.select, input.effects, work);
         priority = std::max(priority, seen.priority);
         if (input.load.order == LoadOrder::priority) continue;
         const double weight = seen.visible ? 1.0 : std::max(kLeastWeight, kWeightBeside * seen.frustumVisibility);
-        gain += weight * child.of(node, seen.distance);
+        gain += weight * child.of(node, surfaceDistance(hierarchy, node, eye));
         bytes += static_cast<double>(hierarchy.residentBytes[node]);
     }
     return input.load.order == LoadOrder::priority ? priority : gain / bytes;

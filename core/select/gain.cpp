@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "select/surface_distance.h"
+
 namespace fb {
 namespace {
 
@@ -59,8 +61,7 @@ double errorGain(const SelectInput& input, NodeId parent, const SelectState& sta
     const ChildErrorGain child(h, parent, input.view);
     double gain = 0.0;
     for (const NodeId node : state.group) {
-        const Box3d box{glm::dvec3(h.bounds[node].min), glm::dvec3(h.bounds[node].max)};
-        gain += child.of(node, box.distance(input.view.camera.eye));
+        gain += child.of(node, surfaceDistance(h, node, input.view.camera.eye));
     }
     return gain;
 }

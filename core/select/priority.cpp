@@ -17,6 +17,10 @@ double foreshortening(const Hierarchy& hierarchy, NodeId node, const View& view,
 
 }  // namespace
 
+glm::dvec3 predictedEye(const View& view, const SelectSettings& settings, const ActiveEffects& effects) {
+    return effects[Effect::velocityLead] ? view.camera.eye + settings.lookAhead * view.velocity : view.camera.eye;
+}
+
 NodeView lookAtNode(const Hierarchy& hierarchy, NodeId node, const View& view, const SelectSettings& settings,
                     const ActiveEffects& effects, EffectWork& work) {
     const Box3f& box = hierarchy.bounds[node];
@@ -24,11 +28,8 @@ NodeView lookAtNode(const Hierarchy& hierarchy, NodeId node, const View& view, c
     const double outside = outsideDistance(view, box);
     seen.visible = outside <= 0.0;
 
-    glm::dvec3 eye = view.camera.eye;
-    if (effects[Effect::velocityLead]) {
-        ++work[Effect::velocityLead];
-        eye += settings.lookAhead * view.velocity;
-    }
+    if (effects[Effect::velocityLead]) ++work[Effect::velocityLead];
+    const glm::dvec3 eye = predictedEye(view, settings, effects);
     const Box3d exact{glm::dvec3(box.min), glm::dvec3(box.max)};
     seen.distance = std::max(settings.minDistance, exact.distance(eye));
 

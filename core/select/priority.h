@@ -17,6 +17,8 @@ struct NodeView {
     bool repaired = false;    // the formula gave no usable number and 1e-12 was taken (algorithms 5, case 4)
 };
 
+// Where the camera will be in look_ahead seconds, with the effect velocity_lead; else where it is.
+[[nodiscard]] glm::dvec3 predictedEye(const View& view, const SelectSettings& settings, const ActiveEffects& effects);
 [[nodiscard]] NodeView lookAtNode(const Hierarchy& hierarchy, NodeId node, const View& view,
                                   const SelectSettings& settings, const ActiveEffects& effects, EffectWork& work);
 

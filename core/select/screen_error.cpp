@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "select/surface_distance.h"
+
 namespace fb {
 namespace {
-
-double distanceTo(const Box3f& box, const glm::dvec3& eye) {
-    return Box3d{glm::dvec3(box.min), glm::dvec3(box.max)}.distance(eye);
-}
 
 struct Picture {
     double pixels, diagonalPixels;
@@ -31,12 +29,11 @@ double errorPixels(double errorMetres, double distanceMetres, double pixelsPerUn
 
 double nodeErrorPixels(const Hierarchy& hierarchy, NodeId node, const View& view) {
     return errorPixels(static_cast<double>(hierarchy.geometricErrorMetres[node]),
-                       distanceTo(hierarchy.bounds[node], view.camera.eye), view.pixelsPerUnit,
-                       pictureOf(view));
+                       surfaceDistance(hierarchy, node, view.camera.eye), view.pixelsPerUnit, pictureOf(view));
 }
 
 double coveredPixels(const Hierarchy& hierarchy, NodeId node, const View& view) {
-    const double scale = view.pixelsPerUnit / distanceTo(hierarchy.bounds[node], view.camera.eye);  // infinite inside
+    const double scale = view.pixelsPerUnit / surfaceDistance(hierarchy, node, view.camera.eye);  // may be infinite
     const double area = static_cast<double>(hierarchy.areaSquareMetres[node]);
     return area > 0.0 ? std::min(1.0 * view.width * view.height, area * scale * scale) : 0.0;
 }
@@ -46,7 +43,7 @@ FrontError frontError(const Hierarchy& hierarchy, std::span<const NodeId> front,
     FrontError error;
     double sum = 0.0, weights = 0.0;
     for (NodeId node : front) {
-        const double distance = distanceTo(hierarchy.bounds[node], view.camera.eye);
+        const double distance = surfaceDistance(hierarchy, node, view.camera.eye);
         const double pixels = errorPixels(static_cast<double>(hierarchy.geometricErrorMetres[node]), distance,
                                           view.pixelsPerUnit, picture);
         const double weight = coveredPixels(hierarchy, node, view);

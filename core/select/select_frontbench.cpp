@@ -7,6 +7,7 @@
 #include "select/continue_front.h"
 #include "select/frontbench_marks.h"
 #include "select/givers.h"
+#include "select/screen_error.h"
 #include "select/select_policies.h"
 
 namespace fb {
@@ -114,7 +115,7 @@ class Trade {
             offerFrom(first);
             return;
         }
-        const double haste = r.value / std::max(kLeastPrice, s_.exchangeFactor * priceBefore);
+        const double haste = glaring(r) * r.value / std::max(kLeastPrice, s_.exchangeFactor * priceBefore);
         waited += static_cast<float>(in_.dtSeconds * std::clamp(haste, 1.0, kMostHaste));
         if (static_cast<double>(waited) >= waitSeconds_ && leftToMake_ > 0) {
             expand(taker);
@@ -131,7 +132,7 @@ class Trade {
         const bool isWorthIt = ratio > s_.exchangeFactor;
         const double most = patience_ * s_.exchangeWait;
         double waited = static_cast<double>(state_.waited[tree_.nodes[taker].node]);
-        waited = isWorthIt ? waited + in_.dtSeconds * ratio / s_.exchangeFactor
+        waited = isWorthIt ? waited + in_.dtSeconds * glaring(tree_.nodes[taker]) * ratio / s_.exchangeFactor
                            : std::max(0.0, std::min(waited, most) - in_.dtSeconds);
         state_.waited[tree_.nodes[taker].node] = static_cast<float>(waited);
         if (!isWorthIt || (waited < most && !tree_.nodes[taker].isNew)) {
@@ -143,6 +144,10 @@ class Trade {
         for (const std::uint32_t giver : givers_.chosen()) refuse(tree_.nodes[giver], BoundBy::time);
     }
 
+    // At least 1: what is plainly wrong is put right sooner; a switch shows less than that does.
+    [[nodiscard]] double glaring(const Refinement& r) const {
+        return std::max(1.0, nodeErrorPixels(in_.hierarchy, r.node, in_.view) / s_.waitPixels);
+    }
     [[nodiscard]] double extraMs(std::uint32_t i) const { return marks_.scale * tree_.nodes[i].extraMs; }
     void collapse(std::uint32_t i) {
         tree_.collapse(i);

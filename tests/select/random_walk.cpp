@@ -28,6 +28,7 @@ SelectSettings randomRivalSettings(Random& r, PolicyId policy) {
     s.exchangeFactor = 1.0 + 5.0 * std::pow(r.uniform(), 3.0);  // most of them low, or exchanges are rare
     s.exchangeWait = r.index(3) == 0 ? 0.0 : r.uniform(0.0, 0.3);
     s.refineWait = r.index(8) == 0 ? 0.0 : r.uniform(0.0, 0.3);
+    s.waitPixels = std::pow(10.0, r.uniform(-0.5, 3.0));
     s.urgency = r.uniform(0.01, 1.0);
     s.refineRate = 1 + static_cast<int>(r.index(5));
     s.restFactor = r.index(3) == 0 ? 1.0 : r.uniform(1.0, 8.0);

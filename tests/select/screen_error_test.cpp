@@ -21,6 +21,8 @@ View squareView() {
 // A box `distance` metres in front of the eye with the given error and area.
 void addNode(Hierarchy& hierarchy, float distance, float errorMetres, float areaSquareMetres) {
     hierarchy.parent.push_back(kNoNode);
+    hierarchy.firstChild.push_back(kNoNode);
+    hierarchy.childCount.push_back(0);
     hierarchy.bounds.push_back({glm::vec3(-1, -1, -distance - 1), glm::vec3(1, 1, -distance)});
     hierarchy.geometricErrorMetres.push_back(errorMetres);
     hierarchy.areaSquareMetres.push_back(areaSquareMetres);

@@ -147,7 +147,7 @@ void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
                 }
                 continue;
             }
-            const double times = price > 0.0 ? scene[n].value / s.exchangeFactor / price
+            const double times = price > 0.0 ? sooner(scene, n) * scene[n].value / s.exchangeFactor / price
                                  : scene[n].value > 0.0 ? 1e6 : 1.0;
             if (waited[n] >= 1e6f) ++arrivals;
             waited[n] += static_cast<float>(dt * std::min(1e6, std::max(1.0, times)));
@@ -168,7 +168,7 @@ void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
             waited[n] = static_cast<float>(std::max(0.0, std::min(double{waited[n]}, longest) - dt));
             continue;
         }
-        waited[n] = static_cast<float>(double{waited[n]} + dt * exchange.ratio / s.exchangeFactor);
+        waited[n] = static_cast<float>(double{waited[n]} + dt * sooner(scene, n) * exchange.ratio / s.exchangeFactor);
         ++exchangesAwaited;
         if (!new_.contains(n) && scene.below(double{waited[n]}, patience_ * s.exchangeWait)) {
             waits_.insert(n);
@@ -181,6 +181,11 @@ void SlowFrontbench::improve(SlowScene& scene, const Limits& l) {
         if (exchange.givenUp.size() > 1) ++exchangesOfSeveral;
     }
     price = std::max(largestRefused, price / (1.0 + dt));
+}
+
+double SlowFrontbench::sooner(const SlowScene& scene, NodeId n) {
+    const double limit = scene.in.settings.waitPixels;
+    return scene[n].errorPixels > limit ? scene[n].errorPixels / limit : 1.0;
 }
 
 // What makes room for the node, and how many times as much the node brings.

@@ -34,6 +34,7 @@ class SlowFrontbench {
     [[nodiscard]] Limits limits(SlowScene& scene) const;
     void makeRoom(SlowScene& scene, const Limits& limits);
     void improve(SlowScene& scene, const Limits& limits);
+    static double sooner(const SlowScene& scene, NodeId n);
     [[nodiscard]] Exchange exchangeFor(SlowScene& scene, const Limits& limits, NodeId node) const;
     void refine(const SlowScene& scene, NodeId node);
 

@@ -14,6 +14,21 @@ double slowDistance(const glm::dvec3& eye, const Box3f& box) {
     return std::sqrt(squared);
 }
 
+// Of all nodes below, the nearest of those that are leaves or have the eye outside, while it is inside all above them.
+double slowSurfaceDistance(const Hierarchy& h, NodeId node, const glm::dvec3& eye) {
+    double nearest = INFINITY;
+    for (NodeId n = node; n < h.size(); ++n) {
+        bool counts = h.childCount[n] == 0 || slowDistance(eye, h.bounds[n]) > 0.0;
+        NodeId up = n;
+        while (up != node && up != kNoNode) {
+            up = h.parent[up];
+            if (up != kNoNode && slowDistance(eye, h.bounds[up]) > 0.0) counts = false;
+        }
+        if (counts && up == node) nearest = std::min(nearest, slowDistance(eye, h.bounds[n]));
+    }
+    return nearest;
+}
+
 double slowOutside(const View& view, const Box3f& box) {
     const double up = std::tan(view.camera.fovyRadians / 2.0);
     const double across = up * view.width / view.height;

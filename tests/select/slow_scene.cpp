@@ -30,7 +30,7 @@ double pixelGain(const SelectInput& in, NodeId parent, NodeId child) {
     double finer = 0.0;
     if (h.geometricErrorMetres[child] < shapeBefore) finer += shapeBefore - h.geometricErrorMetres[child];
     if (halfTexel(h, child) < textureBefore) finer += textureBefore - halfTexel(h, child);
-    const double away = slowDistance(in.view.camera.eye, h.bounds[child]);
+    const double away = slowSurfaceDistance(h, child, in.view.camera.eye);
     const double perMetre = in.view.pixelsPerUnit / std::max(0.001, away);
     const double pixels = std::min(double(in.view.width) * in.view.height, h.areaSquareMetres[child] * perMetre * perMetre);
     const double nearest = std::max(0.001, away - shapeBefore - textureBefore);
