@@ -1,6 +1,7 @@
 #include "load/chunk_order.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/check.h"
 
@@ -65,12 +66,20 @@ bool ChunkOrder::isWished(NodeId node) const {
                        [node](const Wish& wish) { return wish.node == node; });
 }
 
-void ChunkOrder::finish(NodeId node) {
-    std::erase_if(started_, [node](const StartedLoad& load) { return load.node == node; });
+bool ChunkOrder::isStarted(NodeId node) const {
+    return std::ranges::find(started_, node, &StartedLoad::node) != started_.end();
+}
+
+StartedLoad ChunkOrder::release(NodeId node) {
     std::size_t i = first_;
     while (wishes_[i].node != node) ++i;
     wishes_[i].node = kNoNode;
     if (current_ == i) current_ = kNone;
+    StartedLoad* const found = findStarted(node);
+    FB_CHECK(found != nullptr);
+    StartedLoad load = std::move(*found);
+    started_.erase(started_.begin() + (found - started_.data()));
+    return load;
 }
 
 StartedLoad* ChunkOrder::findStarted(NodeId node) {

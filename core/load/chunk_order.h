@@ -29,9 +29,10 @@ class ChunkOrder {
     [[nodiscard]] bool hasWork();
     // The load to go on with or to start; hasWork() must hold. Valid until the next call of a member.
     [[nodiscard]] StartedLoad& choose();
-    [[nodiscard]] bool isWished(NodeId node) const;
-    // A load that is wished for is finished, well or not: it is neither wished for nor started any more.
-    void finish(NodeId node);
+    // Chosen, and wished for ever since; what was dropped and is wished for again begins anew.
+    [[nodiscard]] bool isStarted(NodeId node) const;
+    // A started load has been read, well or not: it is neither wished for nor started any more.
+    [[nodiscard]] StartedLoad release(NodeId node);
 
     // Where a disk's head stands after the chunk that is read next. True where it follows the one before: the padding between
     // two payloads of a pack costs no seek, a disk reads whole blocks, and ahead.
@@ -43,6 +44,7 @@ class ChunkOrder {
   private:
     static constexpr std::size_t kNone = ~std::size_t{0};
     [[nodiscard]] StartedLoad* findStarted(NodeId node);
+    [[nodiscard]] bool isWished(NodeId node) const;
 
     std::vector<Wish> wishes_;          // finished ones have kNoNode
     std::size_t first_ = 0;             // no unfinished wish stands before it

@@ -27,16 +27,16 @@ void WishMarks::mark(std::span<const Wish> wishes) {
     for (const Wish& wish : wishes) markedAt_[wish.node] = now_;
 }
 
-void WishMarks::settle(FinishedQueue& queue, std::vector<Wish>& wishes,
-                       std::vector<FinishedQueue::Entry>& dropped) {
-    if (queue.empty()) return;
-    queue.removeIf(
-        [this](const FinishedQueue::Entry& entry) {
-            if (!isMarked(entry.load.node)) return true;
-            markedAt_[entry.load.node] = 0;
-            return false;
-        },
-        dropped);
+void WishMarks::settle(FinishedQueue& queue, std::vector<Wish>& wishes, std::vector<FinishedQueue::Entry>& dropped,
+                       DecodeStage* stage) {
+    if (queue.empty() && (stage == nullptr || stage->size() == 0)) return;
+    const auto isWished = [this](NodeId node) {
+        if (!isMarked(node)) return false;
+        markedAt_[node] = 0;
+        return true;
+    };
+    queue.removeIf([&](const FinishedQueue::Entry& entry) { return !isWished(entry.load.node); }, dropped);
+    if (stage != nullptr) stage->settle(isWished);
     std::erase_if(wishes, [this](const Wish& wish) { return !isMarked(wish.node); });
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "load/decode_stage.h"
 #include "load/loader.h"
 
 namespace fb {
@@ -25,7 +26,10 @@ class FinishedQueue {
     FinishedQueue() : ring_(kCapacity) {}
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
-    [[nodiscard]] bool hasRoom() const { return count_ < kCapacity && bytes_ < kCapacityBytes; }
+    // Also for what is on its way here.
+    [[nodiscard]] bool hasRoom(std::size_t coming = 0, std::uint64_t comingBytes = 0) const {
+        return count_ + coming < kCapacity && bytes_ + comingBytes < kCapacityBytes;
+    }
     void push(Entry&& entry);  // hasRoom() must hold
     [[nodiscard]] const Entry& front() const { return ring_[head_]; }
     [[nodiscard]] Entry pop();
@@ -54,9 +58,10 @@ class WishMarks {
     explicit WishMarks(std::size_t nodes) : markedAt_(nodes, 0) {}
     void mark(std::span<const Wish> wishes);
 
-    // Moves finished loads that nobody wishes for any more to `dropped`, and takes wishes that are finished
-    // already out of `wishes` (mark() them first).
-    void settle(FinishedQueue& queue, std::vector<Wish>& wishes, std::vector<FinishedQueue::Entry>& dropped);
+    // Moves finished loads that nobody wishes for any more to `dropped`, gives those up that are being decoded, and takes
+    // wishes that are finished or being decoded already out of `wishes` (mark() them first).
+    void settle(FinishedQueue& queue, std::vector<Wish>& wishes, std::vector<FinishedQueue::Entry>& dropped,
+                DecodeStage* stage = nullptr);
 
   private:
     [[nodiscard]] bool isMarked(NodeId node) const { return markedAt_[node] == now_; }

@@ -1,40 +1,35 @@
-// The loader thread.
-//
-// Hand-over point: `mutex_` guards incoming_, incomingChunkBytes_, fresh_, stopping_ and queue_; nothing else
-// is shared but the counters (atomic), the scene (const) and the source. Whoever holds the mutex swaps or
-// moves a few values: reading, decoding and freeing happen outside. The main thread only ever tries the lock:
-// the loader has a low OS priority and may be off the processor while it holds it. What could not be
-// delivered is delivered with the next call. A load that is in the queue is neither in incoming_ nor known to
-// the loader; so it is loaded again only if it is wished for again after it was taken.
+// The loader's threads: one reads, chunk by chunk, some decode. What they share is in HandOver; beside it only the
+// counters (atomic), the scene (const) and the source, which the reading thread alone uses.
 #include <pthread.h>
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <condition_variable>
 #include <exception>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
 
 #include "base/clock.h"
-#include "load/chunk_order.h"
 #include "load/decode_payload.h"
-#include "load/finished_queue.h"
-#include "load/loader.h"
+#include "load/hand_over.h"
 
 namespace fb {
 namespace {
 
 constexpr int kNicer = 10, kNicest = 19;
+constexpr std::size_t kCoresPerDecoder = 2;
 
 // On Linux a thread has its own nice value. Where it may not be changed, loading is just less polite.
-void lowerThreadPriority() {
+void becomeLoaderThread(const char* name) {
     const int inherited = getpriority(PRIO_PROCESS, 0);
     static_cast<void>(setpriority(PRIO_PROCESS, 0, std::min(inherited + kNicer, kNicest)));
-    static_cast<void>(pthread_setname_np(pthread_self(), "fb-loader"));
+    static_cast<void>(pthread_setname_np(pthread_self(), name));
+}
+
+std::size_t decodersFor(const LoadSettings& settings) {
+    if (settings.decoders > 0) return static_cast<std::size_t>(settings.decoders);
+    return std::max<std::size_t>(1, std::thread::hardware_concurrency() / kCoresPerDecoder);
 }
 
 class ThreadLoader final : public Loader {
@@ -44,39 +39,33 @@ class ThreadLoader final : public Loader {
           source_(source ? std::move(source) : std::make_unique<ScenePacks>(scene)),
           marks_(scene.hierarchy.size()) {
         dropped_.reserve(FinishedQueue::kCapacity);
-        thread_ = std::thread([this] { run(); });
+        reader_ = std::thread([this] { read(); });
     }
 
     ~ThreadLoader() override {
-        {
-            const std::lock_guard lock(mutex_);
-            stopping_ = true;
-        }
-        changed_.notify_one();
-        thread_.join();
+        shared_.stop();
+        reader_.join();
+        for (std::thread& decoder : decoders_) decoder.join();
     }
 
     void publish(std::span<const Wish> wishes, const LoadSettings& settings) override {
         if (wishes.empty() && idle_) return;  // do not wake the thread for nothing
         idle_ = false;
         undelivered_.assign(wishes.begin(), wishes.end());
-        undeliveredChunkBytes_ = chunkBytes(settings);
+        undeliveredSettings_ = settings;
         deliversNothing_ = wishes.empty();
         marks_.mark(wishes);
         hasUndelivered_ = true;
+        while (decoders_.size() < decodersFor(settings)) {
+            decoders_.emplace_back([this, number = decoders_.size()] { decode(number); });
+        }
         deliver();
     }
 
     bool take(FinishedLoad& finished, std::uint64_t capBytes) override {
         deliver();
         if (hasUndelivered_) return false;  // the old wishes say nothing about what is taken from now on
-        {
-            const std::unique_lock lock(mutex_, std::try_to_lock);
-            if (!lock || queue_.empty() || queue_.front().residentBytes > capBytes) return false;
-            finished = queue_.pop().load;
-        }
-        changed_.notify_one();  // there is room in the queue
-        return true;
+        return shared_.tryTake(finished, capBytes);
     }
 
     void advance(double) override {}
@@ -84,26 +73,17 @@ class ThreadLoader final : public Loader {
     double nowSeconds() const override { return millisecondsSince(begun_) / 1000.0; }
 
     LoaderCounters counters() const override {
-        return {suspended_.load(std::memory_order_relaxed),
-                cancelled_.load(std::memory_order_relaxed) + droppedLoads_,
-                bytesRead_.load(std::memory_order_relaxed),
-                wastedBytes_.load(std::memory_order_relaxed) + droppedBytes_,
-                seeks_.load(std::memory_order_relaxed)};
+        const auto of = [](const std::atomic<std::uint64_t>& count) { return count.load(std::memory_order_relaxed); };
+        return {of(suspended_), of(cancelled_) + of(givenUp_) + droppedLoads_, of(bytesRead_),
+                of(wastedBytes_) + of(givenUpBytes_) + droppedBytes_, of(seeks_)};
     }
 
   private:
     // --- Main thread ---
     void deliver() {
         if (!hasUndelivered_) return;
-        {
-            const std::unique_lock lock(mutex_, std::try_to_lock);
-            if (!lock) return;
-            marks_.settle(queue_, undelivered_, dropped_);
-            incoming_.swap(undelivered_);
-            incomingChunkBytes_ = undeliveredChunkBytes_;
-            fresh_ = true;
-        }
-        changed_.notify_one();
+        if (!shared_.tryDeliver(marks_, undelivered_, undeliveredSettings_, decodersFor(undeliveredSettings_), dropped_))
+            return;
         hasUndelivered_ = false;
         idle_ = deliversNothing_;
         for (const FinishedQueue::Entry& entry : dropped_) {
@@ -113,83 +93,46 @@ class ThreadLoader final : public Loader {
         dropped_.clear();
     }
 
-    // --- Loader thread ---
-    void run() {
-        lowerThreadPriority();
-        while (waitForWork()) {
-            readOneChunk();
+    // --- Reading thread ---
+    void read() {
+        becomeLoaderThread("fb-loader");
+        std::uint64_t chunkBytes = 1;
+        for (HandOver::Work work; (work = shared_.waitForWork(order_, chunkBytes)) != HandOver::Work::end;) {
+            if (work == HandOver::Work::read) readOneChunk(chunkBytes);
             publishCounters();
         }
     }
 
-    // Takes over wishes that have come meanwhile, with `lock` held; they are examined without it.
-    void adoptFresh(std::unique_lock<std::mutex>& lock) {
-        while (fresh_) {
-            adopted_.swap(incoming_);
-            chunkBytes_ = incomingChunkBytes_;
-            fresh_ = false;
-            lock.unlock();
-            order_.adopt(adopted_);
-            publishCounters();
-            lock.lock();
-        }
-    }
-
-    // False when the thread must end.
-    bool waitForWork() {
-        std::unique_lock lock(mutex_);
-        while (true) {
-            adoptFresh(lock);
-            if (stopping_) return false;
-            if (queue_.hasRoom() && order_.hasWork()) return true;
-            changed_.wait(lock);
-        }
-    }
-
-    void readOneChunk() {
+    void readOneChunk(std::uint64_t chunkBytes) {
         StartedLoad& load = order_.choose();
+        const NodeId node = load.node;  // the load itself may go with fresh wishes
         if (load.filledBytes == 0) load.stamps.firstRead = nowSeconds();
-        const PayloadRef& payload = scene_.hierarchy.payload[load.node];
+        const PayloadRef& payload = scene_.hierarchy.payload[node];
         try {
             load.bytes.resize(payload.sizeBytes);
         } catch (const std::exception& problem) {
-            handOver(load, failure({}, nodePlace(load.node), std::string("cannot be read: ") + problem.what()));
+            fail(node, {Error::Kind::failed, {}, nodePlace(node), std::string("cannot be read: ") + problem.what(), {}});
             return;
         }
-        const std::uint64_t bytes = std::min(chunkBytes_, payload.sizeBytes - load.filledBytes);
+        const std::uint64_t bytes = std::min(chunkBytes, payload.sizeBytes - load.filledBytes);
         const std::span<std::uint8_t> into(load.bytes.data() + load.filledBytes, bytes);
         static_cast<void>(order_.moveHead(payload.pack, payload.offset + load.filledBytes, bytes));
-        if (Result<void> read = source_->readAt(payload.pack, payload.offset + load.filledBytes, into);
-            !read) {
-            if (read.error().place.empty()) read.error().place = nodePlace(load.node);
-            handOver(load, passOn(read));
+        if (Result<void> done = source_->readAt(payload.pack, payload.offset + load.filledBytes, into); !done) {
+            if (done.error().place.empty()) done.error().place = nodePlace(node);
+            fail(node, std::move(done.error()));
             return;
         }
         load.filledBytes += bytes;
         order_.countRead(bytes);
-        if (load.filledBytes < payload.sizeBytes || isStopping()) return;
+        if (load.filledBytes < payload.sizeBytes) return;
         load.stamps.read = nowSeconds();
-        Result<std::unique_ptr<DecodedNode>> content = decodePayload(scene_, load.node, load.bytes);
-        load.stamps.decoded = nowSeconds();
-        handOver(load, std::move(content));
-    }
-
-    bool isStopping() {
-        const std::lock_guard lock(mutex_);
-        return stopping_;
-    }
-
-    void handOver(const StartedLoad& load, Result<std::unique_ptr<DecodedNode>> content) {
-        const NodeId node = load.node;  // the load itself may go with fresh wishes
-        const std::uint64_t residentBytes = content ? scene_.hierarchy.residentBytes[node] : 0;
-        FinishedQueue::Entry entry{{node, std::move(content), load.stamps}, residentBytes, load.filledBytes};
         publishCounters();  // before the main thread can see the load
-        std::unique_lock lock(mutex_);
-        adoptFresh(lock);
-        if (!order_.isWished(node)) return;  // cancelled when the wishes were taken over
-        queue_.push(std::move(entry));
-        lock.unlock();
-        order_.finish(node);
+        shared_.passOnRead(order_, node, scene_.hierarchy.residentBytes[node]);
+    }
+
+    void fail(NodeId node, Error error) {
+        publishCounters();
+        shared_.passOnFailed(order_, node, std::move(error));
     }
 
     void publishCounters() {
@@ -200,13 +143,35 @@ class ThreadLoader final : public Loader {
         seeks_.store(order_.counters().seeks, std::memory_order_relaxed);
     }
 
+    // --- Decoding threads ---
+    void decode(std::size_t number) {
+        becomeLoaderThread("fb-decoder");
+        while (std::optional<DecodeStage::Next> next = shared_.waitForPayload(number)) {
+            if (!next->wanted || !decodeOne(next->load)) {
+                givenUp_.fetch_add(1, std::memory_order_relaxed);
+                givenUpBytes_.fetch_add(next->load.filledBytes, std::memory_order_relaxed);
+            }
+        }
+    }
+
+    // False where nobody wishes for it any more.
+    bool decodeOne(StartedLoad& load) {
+        Result<std::unique_ptr<DecodedNode>> content = decodePayload(scene_, load.node, load.bytes);
+        load.stamps.decoded = nowSeconds();
+        const std::uint64_t residentBytes = content ? scene_.hierarchy.residentBytes[load.node] : 0;
+        return shared_.passOnDecoded({{load.node, std::move(content), load.stamps}, residentBytes, load.filledBytes});
+    }
+
     const Scene& scene_;
     const std::unique_ptr<PayloadSource> source_;
     const SteadyClock::time_point begun_ = SteadyClock::now();
+    HandOver shared_;
+    std::atomic<std::uint64_t> suspended_{0}, cancelled_{0}, bytesRead_{0}, wastedBytes_{0}, seeks_{0};  // of order_
+    std::atomic<std::uint64_t> givenUp_{0}, givenUpBytes_{0};  // of the decoders
 
     // Main thread.
     std::vector<Wish> undelivered_;
-    std::uint64_t undeliveredChunkBytes_ = 1;
+    LoadSettings undeliveredSettings_;
     bool hasUndelivered_ = false;
     bool deliversNothing_ = false;  // it is the empty list
     bool idle_ = true;              // the thread has heard last that nothing is wished for
@@ -214,22 +179,10 @@ class ThreadLoader final : public Loader {
     std::vector<FinishedQueue::Entry> dropped_;
     std::uint64_t droppedLoads_ = 0, droppedBytes_ = 0;
 
-    // Hand-over point.
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::vector<Wish> incoming_;
-    std::uint64_t incomingChunkBytes_ = 1;
-    bool fresh_ = false;
-    bool stopping_ = false;
-    FinishedQueue queue_;
-    std::atomic<std::uint64_t> suspended_{0}, cancelled_{0}, bytesRead_{0}, wastedBytes_{0}, seeks_{0};
+    ChunkOrder order_;  // reading thread
 
-    // Loader thread.
-    ChunkOrder order_;
-    std::vector<Wish> adopted_;
-    std::uint64_t chunkBytes_ = 1;
-
-    std::thread thread_;
+    std::thread reader_;
+    std::vector<std::thread> decoders_;
 };
 
 }  // namespace

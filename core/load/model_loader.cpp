@@ -99,11 +99,9 @@ class ModelLoader final : public Loader {
         const std::uint64_t payloadBytes = scene_.hierarchy.payload[node].sizeBytes;
         if (load.filledBytes < payloadBytes) return;
         load.stamps.read = load.stamps.decoded = nowSeconds();
-        const LoadStamps stamps = load.stamps;
         adoptFresh();
-        if (!order_.isWished(node)) return;
-        queue_.push({{node, nullptr, stamps}, scene_.hierarchy.residentBytes[node], payloadBytes});
-        order_.finish(node);
+        if (!order_.isStarted(node)) return;
+        queue_.push({{node, nullptr, order_.release(node).stamps}, scene_.hierarchy.residentBytes[node], payloadBytes});
     }
 
     const Scene& scene_;

@@ -145,8 +145,10 @@ inline void waitForReads(Loader& loader, Disk& disk, std::size_t count) {
     }
 }
 
+// With one decoder loads come in the order in which they were read.
 inline LoadSettings chunksOf(std::uint64_t bytes) {
     LoadSettings settings;
+    settings.decoders = 1;
     settings.chunkKiB = static_cast<double>(bytes) / 1024.0;
     return settings;
 }
