@@ -14,8 +14,8 @@ namespace fb {
 
 class FinishedQueue {
   public:
-    static constexpr std::size_t kCapacity = 64;
-    static constexpr std::uint64_t kCapacityBytes = std::uint64_t{32} << 20;  // exceeded by one load at most
+    static constexpr std::size_t kCapacity = 256;
+    static constexpr std::uint64_t kCapacityBytes = std::uint64_t{64} << 20;  // exceeded by one load at most
 
     struct Entry {
         FinishedLoad load;

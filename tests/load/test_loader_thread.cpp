@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/random.h"
+#include "load/finished_queue.h"
 #include "payload_world.h"
 
 namespace fb::test {
@@ -212,22 +213,17 @@ TEST(LoaderThread, HoldsBackALoadThatIsLargerThanTheCap) {
 }
 
 TEST(LoaderThread, StopsReadingWhileItsQueueIsFull) {
-    std::vector<NodeSpec> specs = {{kRoot, 1, 0}};
-    std::vector<std::uint32_t> triangles = {1};
+    constexpr NodeId kNodes = FinishedQueue::kCapacity + 40;
+    const PayloadWorld world = manyNodes(kNodes);
     std::vector<Wish> wishes;
-    for (NodeId n = 1; n <= 100; ++n) {
-        specs.push_back({0, 1, 0});
-        triangles.push_back(1);
-        wishes.push_back({n, 1.0});
-    }
-    const PayloadWorld world(specs, triangles);
+    for (NodeId n = 1; n <= kNodes; ++n) wishes.push_back({n, 1.0});
     Disk disk;
     const std::unique_ptr<Loader> loader = startLoader(world, disk);
     loader->publish(wishes, chunksOf(1000000));
-    waitForReads(*loader, disk, 64);
+    waitForReads(*loader, disk, FinishedQueue::kCapacity);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_EQ(disk.reads().size(), 64u);
-    for (NodeId n = 1; n <= 100; ++n) EXPECT_EQ(takeNext(*loader).node, n);
+    EXPECT_EQ(disk.reads().size(), FinishedQueue::kCapacity);
+    for (NodeId n = 1; n <= kNodes; ++n) EXPECT_EQ(takeNext(*loader).node, n);
 }
 
 TEST(LoaderThread, NeverParsesBytesWhoseChecksumIsWrong) {
