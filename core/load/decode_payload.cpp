@@ -59,7 +59,7 @@ Result<std::unique_ptr<DecodedNode>> decodePayload(const Scene& scene, NodeId no
     }
 }
 
-Result<std::unique_ptr<DecodedNode>> readAndDecode(const Scene& scene, PayloadSource& source, NodeId node) {
+Result<std::vector<std::uint8_t>> readPayloadFrom(const Scene& scene, PayloadSource& source, NodeId node) {
     const PayloadRef& payload = scene.hierarchy.payload[node];
     std::vector<std::uint8_t> bytes;
     try {
@@ -72,7 +72,13 @@ Result<std::unique_ptr<DecodedNode>> readAndDecode(const Scene& scene, PayloadSo
         if (read.error().place.empty()) read.error().place = nodePlace(node);
         return passOn(read);
     }
-    return decodePayload(scene, node, bytes);
+    return bytes;
+}
+
+Result<std::unique_ptr<DecodedNode>> readAndDecode(const Scene& scene, PayloadSource& source, NodeId node) {
+    Result<std::vector<std::uint8_t>> bytes = readPayloadFrom(scene, source, node);
+    if (!bytes) return passOn(bytes);
+    return decodePayload(scene, node, *bytes);
 }
 
 }  // namespace fb

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "base/result.h"
 #include "load/payload_source.h"
@@ -20,7 +21,9 @@ namespace fb {
 [[nodiscard]] Result<std::unique_ptr<DecodedNode>> decodePayload(const Scene& scene, NodeId node,
                                                                  std::span<const std::uint8_t> bytes);
 
-// The whole payload at once, read and decoded.
+// The whole payload at once.
+[[nodiscard]] Result<std::vector<std::uint8_t>> readPayloadFrom(const Scene& scene, PayloadSource& source, NodeId node);
+// Read and decoded.
 [[nodiscard]] Result<std::unique_ptr<DecodedNode>> readAndDecode(const Scene& scene, PayloadSource& source,
                                                                  NodeId node);
 

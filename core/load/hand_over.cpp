@@ -82,7 +82,7 @@ void HandOver::passOnFailed(ChunkOrder& order, NodeId node, Error error) {
     adoptFresh(order, lock);
     if (!order.isStarted(node)) return;
     const StartedLoad load = order.release(node);
-    queue_.push({{node, tl::make_unexpected(std::move(error)), load.stamps}, 0, load.filledBytes});
+    queue_.push({{node, tl::make_unexpected(std::move(error)), load.stamps, LoadFault::read}, 0, load.filledBytes});
     lock.unlock();
 }
 

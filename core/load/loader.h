@@ -32,6 +32,7 @@ struct FinishedLoad {
     NodeId node = kNoNode;
     Result<std::unique_ptr<DecodedNode>> content;  // null content: the null device needs none
     LoadStamps stamps{};
+    LoadFault fault = LoadFault::content;  // where content is an error
 };
 
 struct LoaderCounters {

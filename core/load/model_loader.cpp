@@ -44,7 +44,7 @@ class ModelLoader final : public Loader {
     bool take(FinishedLoad& finished, std::uint64_t capBytes) override {
         if (queue_.empty() || queue_.front().residentBytes > capBytes) return false;
         finished = queue_.pop().load;
-        if (readContent_) finished.content = readAndDecode(scene_, packs_, finished.node);
+        if (readContent_) readContentOf(finished);
         return true;
     }
 
@@ -69,6 +69,16 @@ class ModelLoader final : public Loader {
     }
 
   private:
+    void readContentOf(FinishedLoad& finished) {
+        Result<std::vector<std::uint8_t>> bytes = readPayloadFrom(scene_, packs_, finished.node);
+        if (bytes) {
+            finished.content = decodePayload(scene_, finished.node, *bytes);
+        } else {
+            finished.content = passOn(bytes);
+            finished.fault = LoadFault::read;
+        }
+    }
+
     void adoptFresh() {
         if (!fresh_) return;
         fresh_ = false;

@@ -89,6 +89,7 @@ void Residency::reserve(const Hierarchy& hierarchy, NodeId node) {
     const NodeId above = hierarchy.parent[node];
     FB_CHECK((above == kNoNode || loaded[above] == 1));
     FB_CHECK((state[node] == NodeState::unloaded || state[node] == NodeState::failedTemporarily));
+    if (state[node] == NodeState::failedTemporarily) ++counters.retried;
     state[node] = NodeState::wanted;
     addTo(inFlight, position, node);
     reservedBytes += flightBytes(hierarchy, node);
@@ -101,6 +102,7 @@ void Residency::setFailed(const Hierarchy& hierarchy, NodeId node, double nowSec
     ++failures[node];
     if (failures[node] >= kLoadTries) {
         state[node] = NodeState::failed;
+        ++counters.givenUp;
         return;
     }
     state[node] = NodeState::failedTemporarily;

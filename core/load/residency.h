@@ -7,7 +7,9 @@
 //   failed, for good
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "base/ids.h"
@@ -38,12 +40,21 @@ class NullDevice final : public NodeDevice {
     void release(NodeId) override {}
 };
 
+// Where a try to load a node ended: its bytes could not be read, they are damaged or no content that fits the hierarchy,
+// or the device did not take it.
+enum class LoadFault : std::uint8_t { read, content, upload };
+inline constexpr std::size_t kLoadFaultCount = 3;
+inline constexpr std::array<std::string_view, kLoadFaultCount> kLoadFaultNames = {"read", "content", "upload"};
+
 // requested = completed + cancelled + failed + in flight, at any time (the roots' first load is not counted).
 struct LoadCounters {
     std::uint64_t requested = 0;  // reservations, retries included
     std::uint64_t completed = 0;  // became resident
     std::uint64_t cancelled = 0;  // requests withdrawn, whether or not the loader had begun
-    std::uint64_t failed = 0;     // tries that ended in an error
+    std::uint64_t failed = 0;     // tries that ended in an error: the sum of faults
+    std::array<std::uint64_t, kLoadFaultCount> faults{};  // by LoadFault
+    std::uint64_t retried = 0;    // of requested: after a fault
+    std::uint64_t givenUp = 0;    // nodes that failed for good
     std::uint64_t evicted = 0;    // resident nodes given up
     std::uint64_t suspended = 0;  // loads that stepped back for a more urgent one; the loader's count
     std::uint64_t bytes = 0;      // read from disk; the loader's count
@@ -79,8 +90,8 @@ struct Residency {
     void setResident(const Hierarchy& hierarchy,
                      NodeId node);  // from ready, wanted or unloaded; moves its bytes
     void setUnloaded(const Hierarchy& hierarchy, NodeId node);  // evicts or gives up; counts nothing
-    void reserve(const Hierarchy& hierarchy, NodeId node);      // unloaded or failedTemporarily -> wanted
-    // wanted or ready -> failedTemporarily, or failed after the last try; counts nothing.
+    void reserve(const Hierarchy& hierarchy, NodeId node);      // unloaded or failedTemporarily -> wanted; counts retries
+    // wanted or ready -> failedTemporarily, or failed after the last try; counts those given up.
     void setFailed(const Hierarchy& hierarchy, NodeId node, double nowSeconds);
 
     [[nodiscard]] std::uint64_t totalBytes() const { return residentBytes + reservedBytes; }

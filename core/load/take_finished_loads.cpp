@@ -10,12 +10,12 @@
 namespace fb {
 namespace {
 
-
 void giveBack(const UploadInput& input, Residency& residency, const FinishedLoad& finished, double now, Error error) {
     const NodeId node = finished.node;
     if (input.timeline) input.timeline->noteFailed(finished.stamps, node, now);
     residency.setFailed(input.hierarchy, node, input.nowSeconds);
     ++residency.counters.failed;
+    ++residency.counters.faults[static_cast<std::size_t>(finished.fault)];
     if (!input.onFault) return;
     if (error.place.empty()) error.place = nodePlace(node);
     if (residency.state[node] == NodeState::failed) {
@@ -51,6 +51,7 @@ std::uint64_t takeFinishedLoads(const UploadInput& input, Loader& loader, NodeDe
         handled += bytes;
         cap = handled < budget ? budget - handled : 0;
         if (!sent) {
+            finished.fault = LoadFault::upload;
             giveBack(input, residency, finished, loader.nowSeconds(), std::move(sent.error()));
             continue;
         }

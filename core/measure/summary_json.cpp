@@ -62,6 +62,10 @@ Json meanAndMax(const std::vector<double>& values) {
     return {{"mean", d.mean}, {"max", static_cast<std::uint64_t>(d.max)}};
 }
 
+std::uint64_t mostBytes(const std::vector<double>& values) {
+    return static_cast<std::uint64_t>(describe(values).max);
+}
+
 Json memoryOf(const ReplayReport& report) {
     const auto over = [](const FrameRecord& frame) {
         return frame.residentBytes + frame.reservedBytes > frame.budgetBytes;
@@ -70,8 +74,8 @@ Json memoryOf(const ReplayReport& report) {
             {"peak_bytes", report.peakBytes},
             {"over_budget_frames", std::ranges::count_if(report.frames, over)},
             {"pinned_bytes", report.pinnedBytes},
-            {"texture_peak_bytes", describe(collect(report.frames, &FrameRecord::textureBytes)).max},
-            {"estimate_peak_bytes", describe(collect(report.frames, &FrameRecord::estimateBytes)).max}};
+            {"texture_peak_bytes", mostBytes(collect(report.frames, &FrameRecord::textureBytes))},
+            {"estimate_peak_bytes", mostBytes(collect(report.frames, &FrameRecord::estimateBytes))}};
 }
 
 Json prefetchOf(const PrefetchScore& score) {
@@ -113,6 +117,14 @@ Json effectsOf(const ReplayReport& report) {
     return effects;
 }
 
+Json faultsOf(const LoadCounters& loads) {
+    Json faults;
+    for (std::size_t i = 0; i < kLoadFaultCount; ++i) faults[std::string(kLoadFaultNames[i])] = loads.faults[i];
+    faults["retried"] = loads.retried;
+    faults["given_up_nodes"] = loads.givenUp;
+    return faults;
+}
+
 }  // namespace
 
 std::string summaryJson(const ReplayReport& report) {
@@ -148,6 +160,7 @@ std::string summaryJson(const ReplayReport& report) {
                      {"suspended", loads.suspended}, {"cancelled", loads.cancelled},
                      {"evicted", loads.evicted},     {"bytes", loads.bytes},
                      {"failed", loads.failed},       {"seeks", loads.seeks}};
+    json["faults"] = faultsOf(loads);
     json["prefetch"] = prefetchOf(report.prefetch);
     json["skipped_roots"] = describe(collect(frames, &FrameRecord::skippedRoots)).mean;
     json["refused"] = {{"groups_mean", describe(collect(frames, &FrameRecord::refusedGroups)).mean},

@@ -112,6 +112,8 @@ TEST(LoadingScenes, DrawsTheParentWhereANodeIsDamaged) {
         EXPECT_EQ(walk.residency.state[2], NodeState::failed);
         EXPECT_EQ(walk.residency.loaded[0], 1);
         EXPECT_EQ(walk.faults.size(), 4u);
+        EXPECT_EQ(walk.residency.counters.faults, (Faults{0, 4, 0}));
+        EXPECT_EQ(walk.residency.counters.givenUp, 1u);
         for (NodeId n = 5; n < kNodesPerBlock; ++n) EXPECT_EQ(walk.residency.loaded[n], 0);
     }
 }
@@ -131,6 +133,7 @@ TEST(LoadingScenes, OutlivesAPackThatIsCutOffDuringTheWalk) {
     }
     EXPECT_EQ(walk.residency.counters.failed, walk.faults.size());
     EXPECT_GE(walk.faults.size(), 4u);
+    EXPECT_EQ(walk.residency.counters.faults, (Faults{walk.faults.size(), 0, 0}));
 }
 
 TEST(LoadingScenes, KeepsTheBudgetInEveryFrameOfAWalkWithTheThread) {

@@ -129,6 +129,9 @@ TEST(TakeFinishedLoads, RetriesALoadErrorThreeTimesThenGivesUp) {
                             "disk: node 1: EIO (it will be tried again; its parent stays drawn)",
                             "disk: node 1: EIO (given up after 4 tries; its parent stays drawn)"}));
     EXPECT_EQ(w.residency.counters.failed, 4u);
+    EXPECT_EQ(w.residency.counters.faults, (Faults{0, 4, 0}));
+    EXPECT_EQ(w.residency.counters.retried, 3u);
+    EXPECT_EQ(w.residency.counters.givenUp, 1u);
     EXPECT_EQ(w.residency.counters.cancelled, 3u) << "its siblings 2, 3 and 4";
     w.nowSeconds = 1e9;
     w.planFrame();
@@ -144,8 +147,10 @@ TEST(TakeFinishedLoads, RetriesWhenTheDeviceHasNoMemory) {
     EXPECT_EQ(w.residency.loaded[1], 0);
     EXPECT_EQ(w.residency.reservedBytes, 3u * 2 * kMiB);
     EXPECT_EQ(w.faults.size(), 1u);
+    EXPECT_EQ(w.residency.counters.faults, (Faults{0, 0, 1}));
     w.nowSeconds = 0.5;
     w.planFrame();
+    EXPECT_EQ(w.residency.counters.retried, 1u);
     w.loader.finish(1);
     EXPECT_EQ(w.take(), 2u * kMiB);
     EXPECT_EQ(w.residency.failures[1], 0);

@@ -3,6 +3,7 @@
 // visibility 1 (c_vis 0), cost 1 (no triangles), distance d_min = 1.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -108,6 +109,7 @@ struct World {
 };
 
 using Nodes = std::vector<NodeId>;
+using Faults = std::array<std::uint64_t, kLoadFaultCount>;  // read, content, upload
 inline constexpr NodeId kRoot = kNoNode;
 
 }  // namespace fb::test

@@ -29,7 +29,7 @@ TEST(SummaryJson, HasTheNamesOfTheDesignInTheirOrder) {
         "clock",     "device",        "frames",          "target_ms",
         "actual_ms", "infeasible_frames", "utilisation", "over_target_pct", "estimate_error_pct",
         "toggles",   "levels_share",  "front_nodes",     "triangles",
-        "select_us", "visited",       "memory",          "loads", "prefetch",
+        "select_us", "visited",       "memory",          "loads", "faults", "prefetch",
         "skipped_roots", "refused",   "err_px",          "effects",       "front_hash"};
     EXPECT_EQ(keysOf(json), names);
     EXPECT_EQ(keysOf(json["actual_ms"]),
@@ -119,9 +119,11 @@ TEST(SummaryJson, WorksOutMemoryLoadsAndEffects) {
     const Json json = summaryOf(test::smallReport());
     EXPECT_EQ(json["memory"],
               Json::parse(R"({"budget_bytes": 100, "peak_bytes": 101, "over_budget_frames": 1, "pinned_bytes": 20,
-                              "texture_peak_bytes": 70.0, "estimate_peak_bytes": 62.5})"));
+                              "texture_peak_bytes": 70, "estimate_peak_bytes": 62})"));
     EXPECT_EQ(json["loads"], Json::parse(R"({"requested": 7, "completed": 5, "suspended": 2, "cancelled": 1,
                                              "evicted": 3, "bytes": 4096, "failed": 4, "seeks": 6})"));
+    EXPECT_EQ(json["faults"],
+              Json::parse(R"({"read": 1, "content": 2, "upload": 1, "retried": 2, "given_up_nodes": 1})"));
     EXPECT_EQ(json["effects"],
               Json::parse(R"([{"name": "lighting", "mode": "auto", "active_frames": 2, "us_mean": 1.5, "work": 7}])"));
 }
