@@ -3,6 +3,11 @@
 #include <utility>
 
 namespace fb {
+namespace {
+
+constexpr double kBytesPerMB = 1e6;
+
+}  // namespace
 
 bool HandOver::tryDeliver(WishMarks& marks, std::vector<Wish>& wishes, const LoadSettings& settings,
                           std::size_t decoders, std::vector<FinishedQueue::Entry>& dropped) {
@@ -11,7 +16,7 @@ bool HandOver::tryDeliver(WishMarks& marks, std::vector<Wish>& wishes, const Loa
         if (!lock) return false;
         marks.settle(queue_, wishes, dropped, &stage_);
         incoming_.swap(wishes);
-        incomingChunkBytes_ = chunkBytes(settings);
+        incomingPace_ = {chunkBytes(settings), settings.diskLimitMBps * kBytesPerMB};
         decoders_ = decoders;
         fresh_ = true;
     }
@@ -56,15 +61,20 @@ bool HandOver::hasRoom() const {
     return stage_.hasRoom(decoders_) && queue_.hasRoom(stage_.size(), stage_.residentBytes());
 }
 
-HandOver::Work HandOver::waitForWork(ChunkOrder& order, std::uint64_t& chunkBytes) {
+HandOver::Work HandOver::waitForWork(ChunkOrder& order, Pace& pace) {
     std::unique_lock lock(mutex_);
     while (true) {
         if (adoptFresh(order, lock)) return Work::adopted;
-        chunkBytes = incomingChunkBytes_;
+        pace = incomingPace_;
         if (stopping_) return Work::end;
         if (hasRoom() && order.hasWork()) return Work::read;
         readable_.wait(lock);
     }
+}
+
+void HandOver::sleepUntil(SteadyClock::time_point end) {
+    std::unique_lock lock(mutex_);
+    readable_.wait_until(lock, end, [this] { return stopping_; });
 }
 
 void HandOver::passOnRead(ChunkOrder& order, NodeId node, std::uint64_t residentBytes) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/clock.h"
 #include "load/chunk_order.h"
 #include "load/decode_stage.h"
 #include "load/finished_queue.h"
@@ -30,8 +31,14 @@ class HandOver {
 
     // --- Reading thread: `order` is its own, and hears of wishes that have come meanwhile ---
     enum class Work { read, adopted, end };
+    struct Pace {
+        std::uint64_t chunkBytes = 1;
+        double bytesPerSecond = 0.0;  // 0: no limit
+    };
     // Waits until there is something to read and room for it, or wishes have been taken over, or the thread must end.
-    [[nodiscard]] Work waitForWork(ChunkOrder& order, std::uint64_t& chunkBytes);
+    [[nodiscard]] Work waitForWork(ChunkOrder& order, Pace& pace);
+    // Until then, or until the thread must end.
+    void sleepUntil(SteadyClock::time_point end);
     // All is read: on to the decoders, unless it is no longer wished for.
     void passOnRead(ChunkOrder& order, NodeId node, std::uint64_t residentBytes);
     // It failed: on to the main thread.
@@ -50,7 +57,7 @@ class HandOver {
     std::mutex mutex_;
     std::condition_variable readable_, decodable_;
     std::vector<Wish> incoming_;
-    std::uint64_t incomingChunkBytes_ = 1;
+    Pace incomingPace_;
     std::size_t decoders_ = 1;
     bool fresh_ = false, stopping_ = false;
     DecodeStage stage_;

@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kNicer = 10, kNicest = 19;
 constexpr std::size_t kCoresPerDecoder = 2;
+constexpr double kLongestChunkSeconds = 10.0;  // however slow the disk shall be
 
 // On Linux a thread has its own nice value. Where it may not be changed, loading is just less polite.
 void becomeLoaderThread(const char* name) {
@@ -96,14 +97,14 @@ class ThreadLoader final : public Loader {
     // --- Reading thread ---
     void read() {
         becomeLoaderThread("fb-loader");
-        std::uint64_t chunkBytes = 1;
-        for (HandOver::Work work; (work = shared_.waitForWork(order_, chunkBytes)) != HandOver::Work::end;) {
-            if (work == HandOver::Work::read) readOneChunk(chunkBytes);
+        HandOver::Pace pace;
+        for (HandOver::Work work; (work = shared_.waitForWork(order_, pace)) != HandOver::Work::end;) {
+            if (work == HandOver::Work::read) readOneChunk(pace);
             publishCounters();
         }
     }
 
-    void readOneChunk(std::uint64_t chunkBytes) {
+    void readOneChunk(const HandOver::Pace& pace) {
         StartedLoad& load = order_.choose();
         const NodeId node = load.node;  // the load itself may go with fresh wishes
         if (load.filledBytes == 0) load.stamps.firstRead = nowSeconds();
@@ -114,13 +115,19 @@ class ThreadLoader final : public Loader {
             fail(node, {Error::Kind::failed, {}, nodePlace(node), std::string("cannot be read: ") + problem.what(), {}});
             return;
         }
-        const std::uint64_t bytes = std::min(chunkBytes, payload.sizeBytes - load.filledBytes);
+        const std::uint64_t bytes = std::min(pace.chunkBytes, payload.sizeBytes - load.filledBytes);
         const std::span<std::uint8_t> into(load.bytes.data() + load.filledBytes, bytes);
+        const SteadyClock::time_point begun = SteadyClock::now();
         static_cast<void>(order_.moveHead(payload.pack, payload.offset + load.filledBytes, bytes));
         if (Result<void> done = source_->readAt(payload.pack, payload.offset + load.filledBytes, into); !done) {
             if (done.error().place.empty()) done.error().place = nodePlace(node);
             fail(node, std::move(done.error()));
             return;
+        }
+        if (pace.bytesPerSecond > 0.0) {
+            const std::chrono::duration<double> least(
+                std::min(kLongestChunkSeconds, static_cast<double>(bytes) / pace.bytesPerSecond));
+            shared_.sleepUntil(begun + std::chrono::duration_cast<SteadyClock::duration>(least));
         }
         load.filledBytes += bytes;
         order_.countRead(bytes);

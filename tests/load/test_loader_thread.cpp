@@ -384,6 +384,35 @@ TEST(LoaderThread, LosesNothingWhileWishesComeAndGo) {
     }
 }
 
+TEST(LoaderThread, ReadsNoFasterThanTheLimit) {
+    const PayloadWorld world({{kRoot, 1, 0}, {0, 1, 0}}, {1, 4000});
+    Disk disk;
+    const std::unique_ptr<Loader> loader = startLoader(world, disk);
+    const Wish wishes[] = {{1, 1.0}};
+    LoadSettings settings = chunksOf(1000);
+    settings.diskLimitMBps = 0.2;
+    loader->publish(wishes, settings);
+    const FinishedLoad finished = takeNext(*loader);
+    ASSERT_TRUE(finished.content.has_value());
+    EXPECT_GE(finished.stamps.read - finished.stamps.firstRead, world.payloadBytes(1) / 0.2e6);
+}
+
+// The chunk would take 10 s.
+TEST(LoaderThread, QuitsWhileItWaitsForASlowDisk) {
+    const PayloadWorld world({{kRoot, 1, 0}, {0, 1, 0}}, {1, 4000});
+    Disk disk;
+    std::unique_ptr<Loader> loader = startLoader(world, disk);
+    const Wish wishes[] = {{1, 1.0}};
+    LoadSettings settings = chunksOf(4000);
+    settings.diskLimitMBps = 1e-4;
+    loader->publish(wishes, settings);
+    waitForReads(*loader, disk, 1);
+    const SteadyClock::time_point begun = SteadyClock::now();
+    loader.reset();
+    EXPECT_LT(millisecondsSince(begun), 8000.0);
+    EXPECT_EQ(disk.reads().size(), 1u);
+}
+
 TEST(LoaderThread, QuitsFiveHundredTimesWhileLoading) {
     const PayloadWorld world = fourNodes();
     const Wish wishes[] = {{1, 3.0}, {2, 2.0}, {3, 1.0}};
