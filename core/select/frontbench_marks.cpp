@@ -6,8 +6,8 @@ namespace fb {
 namespace {
 
 constexpr double kEmergencyMargins = 3.0, kMostHighMark = 1.05;
-// Time above the target is late now and then; time below it lacks in every frame.
-constexpr double kMiddleMargins = 0.25;
+// Time above the target is late now and then; time below it lacks in every frame. At rest nothing lacks as much as calm.
+constexpr double kMiddleLess = 0.75;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ FrontbenchMarks frontbenchMarks(const SelectInput& input, double nowMs, double p
     const auto mark = [&](double of) { return target * (1.0 + patience * (of - 1.0)); };
     FrontbenchMarks marks;
     marks.totalMs = nowMs * input.time.slowRatio;
-    marks.middleMs = target - kMiddleMargins * marginMs;
+    marks.middleMs = target - (patience - kMiddleLess) * s.margin * input.time.residualMs;
     const double emergencyMs = std::max(mark(s.emergencyMark), target + kEmergencyMargins * marginMs);
     if (nowMs > emergencyMs) marks.totalMs = std::max(marks.totalMs, nowMs);
     const double limitMs = std::clamp(target + marginMs, mark(s.highMark), mark(std::max(kMostHighMark, s.highMark)));

@@ -96,7 +96,7 @@ SlowFrontbench::Limits SlowFrontbench::limits(SlowScene& scene) const {
     if (scene.below(std::max(widened(s.emergencyMark), target + 3.0 * wide), now)) total = std::max(total, now);
     double limit = std::max(target + wide, widened(s.highMark));
     limit = std::min(limit, widened(std::max(1.05, s.highMark)));
-    return {total / now, target - wide / 4.0, limit};
+    return {total / now, target - wide + 0.75 * noise, limit};
 }
 
 SlowSet SlowFrontbench::mayCoarsen(SlowScene& scene) const {
