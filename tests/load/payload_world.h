@@ -55,6 +55,20 @@ struct PayloadWorld {
     }
 };
 
+inline std::uint32_t trianglesOf(NodeId node) {
+    return 1 + node * 7 % 90;
+}
+// One root with so many children.
+inline PayloadWorld manyNodes(std::uint32_t children) {
+    std::vector<NodeSpec> specs = {{kRoot, 1, 0}};
+    std::vector<std::uint32_t> triangles = {1};
+    for (NodeId n = 1; n <= children; ++n) {
+        specs.push_back({0, 1, 0});
+        triangles.push_back(trianglesOf(n));
+    }
+    return {specs, triangles};
+}
+
 // What the test and the loader thread share. Reads wait for permits while the gate is closed.
 class Disk {
   public:
